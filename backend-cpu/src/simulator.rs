@@ -28,6 +28,7 @@ use crate::kernels::measure::measure;
 use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::settle_fires::settle_fires;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
+use crate::kernels::step_branch_snow::step_branch_snow;
 use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
 use crate::kernels::step_particles::step_particles;
@@ -277,6 +278,7 @@ impl Simulator for CpuSimulator {
             if has_snow {
                 let cx = compiled.context(&step_blocks[0]);
                 land_flakes(&cx, particles, bed);
+                step_branch_snow(&cx, branches, bed);
                 step_snow(&cx, bed);
             }
             count

@@ -125,6 +125,12 @@ impl ForestBuffers {
         pass.dispatch_workgroups(rows.div_ceil(WORKGROUP_SIZE), 1, 1);
     }
 
+    /// Encodes a dispatch over all segments in their order, whose first group is bound.
+    pub(crate) fn encode_segments(&self, pass: &mut wgpu::ComputePass<'_>, segments: u32) {
+        pass.set_bind_group(1, &self.level_group, &[0]);
+        pass.dispatch_workgroups(segments.div_ceil(WORKGROUP_SIZE), 1, 1);
+    }
+
     /// One dispatch over a level.
     fn encode_level(&self, pass: &mut wgpu::ComputePass<'_>, number: u32) {
         pass.set_bind_group(1, &self.level_group, &[number * self.level_stride]);

@@ -132,6 +132,7 @@ impl KernelId {
             }
             Self::SettleFires => &[GroupLayout::BlocksAndLitter, GroupLayout::WrittenBuffer],
             Self::LandFlakes => &[GroupLayout::BlocksAndLitter, GroupLayout::Flakes],
+            Self::StepBranchSnow => &[GroupLayout::BlocksAndLitter, GroupLayout::Level],
             Self::StepSnow => &[GroupLayout::BlocksAndLitter],
             Self::FollowLeaves => &[GroupLayout::LeavesThatMove, GroupLayout::OnLeaves],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
@@ -177,6 +178,9 @@ impl KernelId {
         }
         if compiled.block().has_snow() {
             kernels.extend([Self::LandFlakes, Self::StepSnow]);
+            if compiled.block().snow.branches != 0 {
+                kernels.push(Self::StepBranchSnow);
+            }
         }
         if compiled.scene().particle_count() > 0 {
             kernels.push(Self::StepParticles);

@@ -68,13 +68,15 @@ pub enum KernelId {
     FollowLeaves,
     /// Gives flakes that landed to the snow.
     LandFlakes,
+    /// Lets branches catch snow and lose it.
+    StepBranchSnow,
     /// Lets snow slide, settle and melt.
     StepSnow,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 30] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -103,6 +105,7 @@ impl KernelId {
         Self::SettleFires,
         Self::FollowLeaves,
         Self::LandFlakes,
+        Self::StepBranchSnow,
         Self::StepSnow,
     ];
 
@@ -137,6 +140,7 @@ impl KernelId {
             Self::SettleFires => "settle_fires",
             Self::FollowLeaves => "follow_leaves",
             Self::LandFlakes => "land_flakes",
+            Self::StepBranchSnow => "step_branch_snow",
             Self::StepSnow => "step_snow",
         }
     }
@@ -203,6 +207,7 @@ impl Default for Shaders {
             "kernels/push_lying",
             "kernels/stack_litter",
             "kernels/step_particles",
+            "kernels/step_branch_snow",
             "kernels/step_snow",
             "kernels/wake_lying",
             "kernels/sway_coast",
@@ -271,6 +276,7 @@ impl Default for Shaders {
             "terrain/litter",
             "terrain/snow",
             "tree/bindings",
+            "tree/branch_snow",
             "tree/sway/body",
             "tree/sway/coast",
             "tree/sway/composite",

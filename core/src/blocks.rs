@@ -184,8 +184,14 @@ crate::shared_struct! {
         pub first_row: u32,
         /// Units of water of a flake.
         pub flake_water: u32,
-        /// Zero.
+        /// Segments of trees, on which snow lies; 0 where none of them is above the cells.
+        pub branches: u32,
+        /// First row of what they catch it with.
+        pub first_branch_row: u32,
+        /// Zeros; fill the block up to 16 bytes.
         pub unused: u32,
+        /// The same.
+        pub unused_too: [u32; 2],
     }
 }
 
@@ -208,6 +214,12 @@ crate::shared_struct! {
         pub lifts_old_m_s: f32,
         /// Units of water that go over an edge, per lift (u*² - lift²) / u*.
         pub drift_units: f32,
+        /// Units of water that a square metre of leaves or of level wood bears.
+        pub branch_units_m2: f32,
+        /// Share of the snow on branches that falls in a round.
+        pub branch_sheds: f32,
+        /// Zeros; fill the block up to 16 bytes.
+        pub unused: [u32; 2],
     }
 }
 

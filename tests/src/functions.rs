@@ -4,6 +4,7 @@
 
 mod afloat;
 mod bodies;
+mod branch_snow;
 mod burning;
 mod carry;
 mod collisions;
@@ -116,5 +117,6 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(afloat::AFLOAT_FUNCTIONS)
         .chain(particles::PARTICLE_FUNCTIONS)
         .chain(burning::BURNING_FUNCTIONS)
+        .chain(branch_snow::BRANCH_SNOW_FUNCTIONS)
         .chain(snow::SNOW_FUNCTIONS)
 }

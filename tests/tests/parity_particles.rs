@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
-use windfall_core::scene::{MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release};
+use windfall_core::scene::{
+    MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Tree, TreeForm, TreeKind, TreePreset,
+};
 use windfall_core::{Contract, SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
@@ -22,6 +24,17 @@ const OF_PARTICLES: [KernelId; 6] = [
     KernelId::KeepHistory,
     KernelId::LandFlakes,
     KernelId::StepSnow,
+];
+/// Kernels that move flakes, snow, trees and their leaves.
+const OF_BRANCHES: [KernelId; 8] = [
+    KernelId::StepParticles,
+    KernelId::LandFlakes,
+    KernelId::StepBranchSnow,
+    KernelId::StepSnow,
+    KernelId::SwayInward,
+    KernelId::SwayOutward,
+    KernelId::SwayCoast,
+    KernelId::Carry,
 ];
 
 fn world() -> World {
@@ -345,6 +358,63 @@ fn drifting_snow_is_equal_to_the_bit() {
     };
     let unchanged = apart(Shaders::default());
     assert!(unchanged.is_none(), "both backends drift snow alike: {unchanged:?}");
+    two_at_a_time(edits.into_iter(), |(module, old, new)| {
+        let shaders = Shaders::default().edited(module, old, new);
+        let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
+        assert!(apart(shaders).is_some(), "{module}: '{new}' goes unnoticed");
+    });
+}
+
+/// Snow on the branches of a tree in a storm, which bends them and falls from them: the same bits with any instructions and threads and on both
+/// backends, and changes are noticed.
+#[test]
+fn snow_on_branches_is_equal_to_the_bit() {
+    let mut scene = particle_scene(36, 9.0, DT_S);
+    scene.particles.retain(Particles::is_snow);
+    scene.forces.clear();
+    scene.sources.clear();
+    scene.autumn = 0.3;
+    scene.ground.litter.iter_mut().for_each(|litter| litter.leaf_area_index = 0.0);
+    scene.tree_kinds = vec![TreeKind {
+        name: "maple".into(),
+        form: TreeForm::Preset(TreePreset::Maple),
+        ..TreeKind::default()
+    }];
+    let tree = Tree { kind: "maple".into(), at_m: [1.0, -0.5], age: 0.35, leaves: 300, ..Tree::default() };
+    scene.trees = vec![tree];
+    let weather = scene.weather.as_mut().expect("it snows");
+    (weather.lying_mm, weather.air_c) = (3.0, vec![(0.0, -1.0)]);
+    let world = World::build(&scene).expect("valid");
+    let held = |world: &World| {
+        let held = world.bed.branch_snow(world.compiled.block());
+        held.iter().copied().map(u64::from).sum::<u64>()
+    };
+    let expected = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 400);
+    assert!(held(&world) > 1000 && held(&expected) != held(&world), "branches hold snow, and catch more or lose it");
+    let bent = (world.branches.pose.iter().zip(&expected.branches.pose)).filter(|(a, b)| a != b).count();
+    assert!(bent > world.branches.pose.len() / 2, "{bent} segments have moved");
+    for threads in [1, 3, 16] {
+        let options = CpuOptions { threads: Some(threads), ..CpuOptions::default() };
+        let apart = difference(&on_cpu(&world, options, 400), &expected);
+        assert!(apart.is_none(), "{threads} threads: {apart:?}");
+    }
+    let course = Course::new(world, &[40, 160]);
+    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let edits = [
+        ("kernels/step_branch_snow", "crown_word(catch_by.square, pool));", "crown_word(catch_by.square, pool + 1u));"),
+        ("kernels/step_branch_snow", "after.given", "0u - after.given"),
+        ("kernels/step_snow", "2u - crown_pool", "crown_pool"),
+        ("tree/branch_snow", "1.0 - axis_y * axis_y", "axis_y * axis_y"),
+        ("tree/branch_snow", "open <= unit_float", "open > unit_float"),
+        ("tree/branch_snow", "[place & 3u]) * SNOW_UNIT_KG", "[place & 3u]) * SNOW_UNIT_KG * 1.1"),
+    ];
+    let apart = |shaders: Shaders| {
+        let others = KernelId::ALL.into_iter().filter(|kernel| !OF_BRANCHES.contains(kernel));
+        let options = exact(None, Some(with_idle(shaders, others)));
+        course.first_difference(&gpu, &options)
+    };
+    let unchanged = apart(Shaders::default());
+    assert!(unchanged.is_none(), "both backends load branches alike: {unchanged:?}");
     two_at_a_time(edits.into_iter(), |(module, old, new)| {
         let shaders = Shaders::default().edited(module, old, new);
         let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));

@@ -17,8 +17,7 @@ pub(crate) fn land_flakes(cx: &Context<'_>, particles: &ParticleStore, bed: &mut
         .par_chunks(CHUNK)
         .flat_map_iter(|flakes| flakes.iter().filter(|place| has_landed(place)).map(|place| place.position))
         .collect();
-    let mut snow = bed.snow_mut(cx.scene);
     for [x_m, _, z_m] in places {
-        snow.land(cx, x_m, z_m);
+        bed.land_flake(cx, x_m, z_m);
     }
 }

@@ -22,6 +22,7 @@ mod resolve_events;
 mod sample_air;
 pub(crate) mod settle_fires;
 pub(crate) mod stack_litter;
+pub(crate) mod step_branch_snow;
 pub(crate) mod step_collisions;
 pub(crate) mod step_leaves;
 pub(crate) mod step_particles;

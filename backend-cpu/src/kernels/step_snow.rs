@@ -19,6 +19,12 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed) {
     if turn == NEVER {
         return;
     }
+    if turn == 0 {
+        bed.clear_crowns(cx);
+    }
+    if turn == SNOW_AGES {
+        bed.fall_through_crowns(cx);
+    }
     let line = cx.scene.snow.columns as usize;
     // Pairs of lines begin with the first or the second; no pair is parted.
     let before = if turn < SNOW_AGES { line * (turn >> 2) as usize } else { 0 };

@@ -4,11 +4,14 @@
 //!
 //! Inward pass over a batch of trees: responses of joints, and the inertias that segments pass on to their parents.
 
+use std::ops::Range;
+
 use windfall_core::Context;
 use windfall_core::arith::matrix::sym3_trace;
-use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::arith::pack::{BLOCK, Pack, row_of_lane};
 use windfall_core::arith::vector::vec3_select;
 use windfall_core::arith::{Mat3, Sym3, Vec3};
+use windfall_core::device::tree::branch_snow::branch_snow_kg;
 use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
@@ -22,7 +25,7 @@ use windfall_core::tree::BranchesMut;
 
 use crate::simd::batch_blocks::{AHEAD, BatchBlocks, BatchStep, ConstantsOf, SegmentBlock};
 use crate::simd::branch_block::{
-    BlockState, Spare, bodies_of, change_state, ground, lanes_with_rows, state_of,
+    BlockState, Spare, bodies_of, change_state, ground, lanes_with_rows, state_of, word,
 };
 use crate::simd::lanes::Lanes;
 use crate::simd::sway_scratch::{BlockScratch, InertiaBlock};
@@ -78,7 +81,9 @@ impl BatchStep<'_, '_> {
         let axis = segment_axis(&body);
         let air = state.airs(simd, part);
         let leaf_count = state.leaf_counts(simd, part);
-        let mut whole = segment_body(&segment_load(self.cx, &constants, &body, axis, air, leaf_count), axis);
+        let snow_kg = self.snow_kg::<P>(simd, &block.segments.rows, part);
+        let load = segment_load(self.cx, &constants, &body, axis, air, leaf_count, snow_kg);
+        let mut whole = segment_body(&load, axis);
         let twig_responses = &mut twig_responses[block.twigs.clone()];
         for (number, responses) in block.twigs.clone().zip(twig_responses) {
             self.prefetch_twigs(number + AHEAD, &ConstantsOf::INWARD);
@@ -109,6 +114,16 @@ impl BatchStep<'_, '_> {
         inertias[number].store(simd, part, &articulated_shift(&apparent, products.arm));
     }
 
+    /// Mass in kg of the snow on the segments of a block.
+    #[inline(always)]
+    fn snow_kg<P: Pack>(&self, simd: P::Simd, rows: &Range<usize>, part: usize) -> P {
+        if self.cx.scene.snow.branches == 0 {
+            return P::fill(simd, 0.0);
+        }
+        let kg = snow_kg_of(self.cx, self.rows.first + word(rows.start), rows.len());
+        P::from_bits(P::load_words(simd, &kg[part * P::LANES..]))
+    }
+
     /// Steps twigs whose parents move like `parent` in air of velocity `air`, and returns what they pass on.
     #[inline(always)]
     fn inward_twigs<P: Pack>(
@@ -123,7 +138,9 @@ impl BatchStep<'_, '_> {
         let constants = twigs.constants(simd, part);
         let body = state.bodies(simd, part);
         let axis = segment_axis(&body);
-        let load = segment_load(self.cx, &constants, &body, axis, air, state.leaf_counts(simd, part));
+        let snow_kg = self.snow_kg::<P>(simd, &twigs.rows, part);
+        let leaf_count = state.leaf_counts(simd, part);
+        let load = segment_load(self.cx, &constants, &body, axis, air, leaf_count, snow_kg);
         let joint = state.joints(simd, part);
         let spring = joint_spring(self.cx, &constants, &joint, &body, load_trace(&load));
         let products = velocity_products(&body, parent);
@@ -135,6 +152,15 @@ impl BatchStep<'_, '_> {
         );
         articulated_shift(&apparent, products.arm)
     }
+}
+
+/// Bits of the mass in kg of the snow on so many segments from a row of the forest on, in the order of lanes; one copy for all instruction sets.
+#[inline(never)]
+fn snow_kg_of(cx: &Context<'_>, first: u32, count: usize) -> [u32; BLOCK] {
+    std::array::from_fn(|lane| {
+        let row = first + word(row_of_lane(lane).min(count - 1));
+        branch_snow_kg(cx, row).to_bits()
+    })
 }
 
 /// Samples the air at the ends of the limbs in part of a block.

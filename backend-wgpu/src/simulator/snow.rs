@@ -4,7 +4,7 @@
 
 use windfall_core::blocks::NEVER;
 use windfall_core::device::particle::record::POPULATION_SNOW;
-use windfall_core::device::terrain::snow::snow_turn;
+use windfall_core::device::terrain::snow::{SNOW_AGES, snow_turn};
 use windfall_core::particle::ParticleRun;
 
 use super::WgpuSimulator;
@@ -59,6 +59,14 @@ impl WgpuSimulator {
         for (flakes, count) in &snow.flakes {
             pass.set_bind_group(1, flakes, &[]);
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+        let branches = self.compiled.block().snow.branches;
+        if snow_turn(index) == SNOW_AGES
+            && branches != 0
+            && let Some(forest) = &self.forest
+        {
+            pass.set_pipeline(self.pipelines.kernel(KernelId::StepBranchSnow));
+            forest.encode_segments(pass, branches);
         }
         if snow_turn(index) != NEVER {
             pass.set_pipeline(self.pipelines.kernel(KernelId::StepSnow));

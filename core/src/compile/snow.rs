@@ -5,11 +5,13 @@
 use glam::{DVec2, DVec3};
 
 use super::solids::bound_m;
-use crate::blocks::{SceneBlock, SnowBlock, SnowStepBlock, StepBlock};
-use crate::convert::{low_word, single, word};
+use crate::blocks::{NEVER, SceneBlock, SnowBlock, SnowStepBlock, StepBlock};
+use crate::convert::{len32, low_word, single, word};
 use crate::device::terrain::snow::{
     DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_WATER_MM,
+    snow_cell,
 };
+use crate::device::tree::branch_snow::{BranchCatch, SNOW_UNIT_KG, crown_square, crown_squares};
 use crate::device::wind::profile::profile_factor;
 use crate::layout::Uint4;
 use crate::litter::Bed;
@@ -41,6 +43,16 @@ const SALTATION: f64 = 0.68;
 /// Density of air in kg/m³, and gravity in m/s², of the measurements behind it.
 const AIR_KG_M3: f64 = 1.25;
 const GRAVITY_M_S2: f64 = 9.81;
+/// Snow in kg/m² that needles bear per area, by the density of fresh snow: 5.9 (0.27 + 46 / ρ), spruce (Hedstrom and Pomeroy, Hydrological Processes 12,
+/// 1998). Taken for broad leaves and wood too, for which no number was found.
+const BEARS_KG_M2: f64 = 5.9;
+const BEARS_SHARE: f64 = 0.27;
+const BEARS_KG_M3: f64 = 46.0;
+/// Temperature in °C from which on snow falls from branches, degrees and seconds in which it does, and metres of wind that take it (Roesch et al.,
+/// Climate Dynamics 17, 2001, as models of the land surface state it).
+const UNLOADS_FROM_C: f64 = -3.0;
+const UNLOADS_C_S: f64 = 1.87e5;
+const UNLOADS_M: f64 = 1.56e5;
 /// Height in m above everything from which solid things are seen.
 const ABOVE_M: f64 = 1e4;
 /// Distance in m from a leaf or twig within which there is a crown overhead.
@@ -116,7 +128,8 @@ pub(super) fn snow_block(
         })
         .collect();
     shade(&snow, forest, &mut base);
-    for solid in solids.iter().filter(|solid| !solid.moves()) {
+    // Snow blows through what is open.
+    for solid in solids.iter().filter(|solid| !solid.moves() && solid.open == 0.0) {
         let pose = solid.pose_at(0.0, |_, _| 0.0);
         let reach_m = bound_m(solid);
         for cell in cells_within(&snow, DVec2::new(pose.center_m.x, pose.center_m.z), reach_m) {
@@ -126,6 +139,7 @@ pub(super) fn snow_block(
             base[cell].0 = base[cell].0.max(single(ABOVE_M - way_m));
         }
     }
+    let branch_rows = branch_rows(&mut snow, forest);
     let words: Vec<u32> =
         base.iter().flat_map(|&(height_m, open)| [height_m, open].map(f32::to_bits)).collect();
     let rows = words.chunks(4).map(|row| {
@@ -133,7 +147,55 @@ pub(super) fn snow_block(
         full[..row.len()].copy_from_slice(row);
         Uint4(full)
     });
-    (snow, rows.collect())
+    let mut rows: Vec<Uint4> = rows.collect();
+    snow.first_branch_row = first_row + len32(rows.len());
+    rows.extend(branch_rows);
+    (snow, rows)
+}
+
+/// What the segments of a forest catch snow with (see [`branch_catch`](crate::device::tree::branch_snow::branch_catch)), row by row; nothing if
+/// none of them is above the snow.
+fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
+    let mut catches =
+        vec![BranchCatch { square: NEVER, share: 0.0, wood_m2: 0.0, leaf_m2: 0.0 }; forest.len()];
+    let mut areas_m2 = vec![0.0_f64; forest.len()];
+    for tree in forest.trees() {
+        let mut leaves = vec![0.0_f64; tree.skeleton.segments.len()];
+        for leaf in tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf) {
+            leaves[leaf.segment as usize] += 1.0;
+        }
+        for ((segment, &row), leaves) in tree.skeleton.segments.iter().zip(&tree.rows).zip(leaves) {
+            let middle_m = tree.foot_m + 0.5 * (segment.start_m + segment.end_m);
+            let cell = snow_cell(snow, middle_m.x, middle_m.z);
+            if cell == NEVER {
+                continue;
+            }
+            let along = (segment.end_m - segment.start_m).as_dvec3();
+            let up = along.normalize_or_zero().y;
+            let level = 1.0 - up * up;
+            let wood_m2 = along.length() * f64::from(segment.start_radius_m + segment.end_radius_m);
+            catches[row as usize] = BranchCatch {
+                square: crown_square(snow, cell),
+                share: 0.0,
+                wood_m2: single(wood_m2),
+                leaf_m2: single(tree.facts.leaf_m2),
+            };
+            areas_m2[row as usize] = wood_m2 * level + tree.facts.leaf_m2 * leaves;
+        }
+    }
+    let mut sums_m2 = vec![0.0; crown_squares(snow) as usize];
+    let caught = || catches.iter().zip(&areas_m2).filter(|(catch, _)| catch.square != NEVER);
+    if caught().next().is_none() {
+        return Vec::new();
+    }
+    caught().for_each(|(catch, area_m2)| sums_m2[catch.square as usize] += area_m2);
+    snow.branches = len32(forest.len());
+    let rows = catches.iter().zip(&areas_m2).map(|(catch, area_m2)| {
+        let sum_m2 = if catch.square == NEVER { 0.0 } else { sums_m2[catch.square as usize] };
+        let share = if sum_m2 > 0.0 { area_m2 / sum_m2 } else { 0.0 };
+        Uint4([catch.square, single(share).to_bits(), catch.wood_m2.to_bits(), catch.leaf_m2.to_bits()])
+    });
+    rows.collect()
 }
 
 /// First of the cells that a rectangle covers along one axis, two's complement, and their number.
@@ -196,7 +258,7 @@ fn shade(snow: &SnowBlock, forest: &Forest, base: &mut [(f32, f32)]) {
     }
 }
 
-/// The weather of a step, at a time.
+/// The weather of a step, at a time, without its wind.
 pub(super) fn snow_step(weather: Option<&Weather>, dt_s: f64, time_s: f64) -> SnowStepBlock {
     let mut step: SnowStepBlock = bytemuck::Zeroable::zeroed();
     let Some(weather) = weather else { return step };
@@ -212,9 +274,20 @@ pub(super) fn snow_step(weather: Option<&Weather>, dt_s: f64, time_s: f64) -> Sn
     (step.lifts_fresh_m_s, step.lifts_old_m_s) = (lift(LIFTS_FRESH_M_S), lift(LIFTS_OLD_M_S));
     let exchange_s = round_s * f64::from(DRIFT_ROUNDS);
     let per_m = SALTATION * AIR_KG_M3 / GRAVITY_M_S2;
+    let bears_kg_m2 = BEARS_KG_M2 * (BEARS_SHARE + BEARS_KG_M3 / fresh_kg_m3(air_c));
+    step.branch_units_m2 = single(bears_kg_m2 / f64::from(SNOW_UNIT_KG));
+    let warmth = (air_c - UNLOADS_FROM_C).max(0.0) / UNLOADS_C_S;
+    step.branch_sheds = single(round_s * warmth);
     step.drift_units = single(per_m * exchange_s / cell_m() / f64::from(SNOW_WATER_MM));
     step.fresh_depth_q12 = word(libm::floor(depth_m / f64::from(SNOW_DEPTH_M) * 4096.0 + 0.5));
     step
+}
+
+/// Adds the wind over the snow to the weather of a step, by its friction velocity.
+pub(super) fn blow_over(step: &mut SnowStepBlock, dt_s: f64, friction_m_s: f32) {
+    let round_s = f64::from(SNOW_INTERVAL * SNOW_TURNS) * dt_s;
+    step.drift_m_s = friction_m_s;
+    step.branch_sheds += single(round_s * f64::from(friction_m_s) / friction_per_wind() / UNLOADS_M);
 }
 
 /// Friction velocity over snow per wind ten metres above it.

@@ -4,7 +4,7 @@
 
 use super::jet::jet_block;
 use super::plume::{plume_block, puffs_per_s};
-use super::snow::{snow_friction, snow_step};
+use super::snow::{blow_over, snow_friction, snow_step};
 use super::vortex::vortex_block;
 use super::{CompiledScene, Cycle};
 use crate::arith::rng::{random, unit_float};
@@ -40,7 +40,8 @@ impl CompiledScene {
             let wind = &self.block.wind;
             let along = weather.center_m.x * wind.direction_x + weather.center_m.y * wind.direction_z;
             let gust = wind_gust(&self.context(&step), &step.moments[0], along);
-            step.snow.drift_m_s = snow_friction(&self.scene, &self.block, gust);
+            let friction_m_s = snow_friction(&self.scene, &self.block, gust);
+            blow_over(&mut step.snow, clock.dt_s().into(), friction_m_s);
         }
         step
     }

@@ -5,11 +5,13 @@
 //! A leaf that lies keeps its own pose; the bed beneath and around it is a grid of integer heights, to which it has given its
 //! volume. So a million leaves lie, each where it fell, with no contact between any two of them.
 
+mod branch_snow;
 pub(crate) mod lay;
 pub(crate) mod snow;
 mod stats;
 mod store;
 
-pub use snow::{Snow, SnowMut, SnowStats, flakes_of, has_landed};
+pub use branch_snow::BranchSnowMut;
+pub use snow::{Snow, SnowMut, SnowStats, flakes_of, has_landed, lies_on};
 pub use stats::LitterStats;
 pub use store::Bed;

@@ -20,6 +20,7 @@ use crate::device::wind::shelter::wind_shelter;
 use crate::layout::Uint4;
 use crate::particle::{ParticlePlace, ParticleStore};
 use crate::scene::Scene;
+use crate::tree::Branches;
 
 use super::Bed;
 
@@ -77,12 +78,18 @@ impl Bed {
 
     /// The snow, to be changed.
     pub fn snow_mut(&mut self, scene: &SceneBlock) -> SnowMut<'_> {
+        self.all_snow_mut(scene).0
+    }
+
+    /// The snow, and the words behind it, to be changed.
+    pub(super) fn all_snow_mut(&mut self, scene: &SceneBlock) -> (SnowMut<'_>, &mut [u32]) {
         let cells = cell_count(&scene.snow);
         let words = if cells == 0 { &mut [][..] } else { &mut self.words[scene.snow.first_word as usize..] };
         let (water, words) = words.split_at_mut(cells);
         let (depth, words) = words.split_at_mut(cells);
-        let (melted, landed) = words.split_at_mut(cells);
-        SnowMut { first: 0, water, depth, melted, landed: &mut landed[..cells] }
+        let (melted, words) = words.split_at_mut(cells);
+        let (landed, words) = words.split_at_mut(cells);
+        (SnowMut { first: 0, water, depth, melted, landed }, words)
     }
 }
 
@@ -126,6 +133,25 @@ impl SnowMut<'_> {
             }
         }
         self.add(cx, number, left);
+    }
+
+    /// Adds the water of snow that falls through crowns to a cell of this number; on water it melts at once.
+    pub(super) fn fall(&mut self, cx: &Context<'_>, cell: u32, water: u32) {
+        let at = (cell - self.first) as usize;
+        if lies_on(cx, cell)[1] >= 0.0 {
+            self.add(cx, at, water);
+        } else {
+            self.melted[at] = self.melted[at].wrapping_add(water);
+            self.landed[at] = self.landed[at].wrapping_add(water);
+        }
+    }
+
+    /// Takes snow back from a cell of this number, on which it has never been.
+    pub(super) fn take(&mut self, cell: u32, water: u32, depth: u32) {
+        let at = (cell - self.first) as usize;
+        self.water[at] -= water;
+        self.depth[at] = self.depth[at].saturating_sub(depth);
+        self.landed[at] -= water;
     }
 
     /// Adds fresh snow to a cell.
@@ -236,7 +262,7 @@ fn wind_left(cx: &Context<'_>, cell: u32, snow: SnowCell) -> f32 {
 }
 
 /// Height in m of what a cell lies on, and its share of the open sky, negative on water.
-fn lies_on(cx: &Context<'_>, cell: u32) -> [f32; 2] {
+pub fn lies_on(cx: &Context<'_>, cell: u32) -> [f32; 2] {
     let Uint4(row) = cx.tables[(cx.scene.snow.first_row + (cell >> 1)) as usize];
     let first = 2 * (cell as usize & 1);
     [row[first], row[first + 1]].map(f32::from_bits)
@@ -254,13 +280,21 @@ pub fn flakes_of<'a>(scene: &SceneBlock, particles: &'a ParticleStore) -> &'a [P
 }
 
 /// Takes the snow of a world through a step in which some of these particles may have landed.
-pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, flakes: &[ParticlePlace]) {
-    let mut snow = bed.snow_mut(cx.scene);
+pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, flakes: &[ParticlePlace]) {
     for place in flakes.iter().filter(|place| has_landed(place)) {
         let [x_m, _, z_m] = place.position;
-        snow.land(cx, x_m, z_m);
+        bed.land_flake(cx, x_m, z_m);
     }
-    match snow_turn(cx.step.index) {
+    let turn = snow_turn(cx.step.index);
+    if turn == 0 {
+        bed.clear_crowns(cx);
+    }
+    if turn == SNOW_AGES {
+        bed.step_branch_snow(cx, branches);
+        bed.fall_through_crowns(cx);
+    }
+    let mut snow = bed.snow_mut(cx.scene);
+    match turn {
         NEVER => {}
         SNOW_AGES => snow.age(cx),
         turn => snow.exchange(cx, turn),
@@ -272,9 +306,11 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, flakes: &[ParticlePlace
 pub struct SnowStats {
     /// Flakes in the air.
     pub flakes: u32,
-    /// Water in the air in kg.
+    /// Water in the air in kg, with what crowns have just caught.
     pub falling_kg: f64,
-    /// Water that has landed on the rectangle since time zero, and that lay there then, in kg.
+    /// Water of the snow on the branches of trees in kg.
+    pub on_branches_kg: f64,
+    /// Water that has landed on the ground of the rectangle since time zero, and that lay there then, in kg.
     pub landed_kg: f64,
     /// Water of the snow that lies in kg.
     pub lying_kg: f64,
@@ -294,7 +330,7 @@ pub struct SnowStats {
 
 impl SnowStats {
     /// Sums over a bed under flakes of which so many are in the air; `None` without snow.
-    pub(crate) fn of(scene: &Scene, block: &SceneBlock, bed: &Bed, flakes: u32) -> Option<Self> {
+    pub(crate) fn of(scene: &Scene, block: &SceneBlock, bed: &Bed, flakes: u32, step: u32) -> Option<Self> {
         scene.weather.as_ref()?;
         let snow = bed.snow(block);
         let sum = |words: &[u32]| words.iter().copied().map(u64::from).sum::<u64>() as f64;
@@ -303,7 +339,10 @@ impl SnowStats {
         let covered = snow.water.iter().filter(|water| f64::from(**water) * f64::from(SNOW_WATER_MM) >= 0.1);
         Some(Self {
             flakes,
-            falling_kg: f64::from(flakes) * f64::from(block.snow.flake_water) * UNIT_KG,
+            falling_kg: (f64::from(flakes) * f64::from(block.snow.flake_water)
+                + sum(bed.in_crowns(block, step)))
+                * UNIT_KG,
+            on_branches_kg: sum(bed.branch_snow(block)) * UNIT_KG,
             landed_kg: sum(snow.landed) * UNIT_KG,
             lying_kg: water * UNIT_KG,
             lying_mm: water * f64::from(SNOW_WATER_MM) / count,

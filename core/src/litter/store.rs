@@ -12,7 +12,7 @@ use crate::scene::MAX_PLUMES;
 const ROW_WORDS: usize = 4;
 
 crate::columns! {
-    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`], then the fires that leaves feed, then the snow; no row without litter and snow.
+    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`], then the fires that leaves feed, then the snow, on the ground and on branches; no row without litter and snow.
     pub struct Bed("litter") {
         /// Heights in units of [`LITTER_UNIT_M`](crate::device::terrain::litter::LITTER_UNIT_M).
         pub words: u32,
@@ -26,7 +26,8 @@ crate::columns! {
 impl Bed {
     /// Number of rows for a scene, whole rows of tables.
     pub(crate) fn rows_of(scene: &SceneBlock) -> usize {
-        let words = Self::first_snow(scene) as usize + Self::snow_words(&scene.snow);
+        let snow = Self::snow_words(&scene.snow) + Self::branch_snow_words(&scene.snow);
+        let words = Self::first_snow(scene) as usize + snow;
         words.next_multiple_of(ROW_WORDS)
     }
 

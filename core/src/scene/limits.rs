@@ -185,6 +185,7 @@ limits! {
     BULK_DENSITY_KG_M3: f32 = 1.0, 100.0, "kg/m³", bulk_density_kg_m3;
     RAISED_DEG: f32 = 0.0, 60.0, "degrees", raised_deg;
     RESTITUTION: f32 = 0.0, 1.0, "", restitution;
+    OPEN: f32 = 0.0, 0.9, "", open;
     ADHESION_N_M2: f32 = 0.0, 20.0, "N/m²", adhesion_n_m2;
     FLOAT_HOURS: f32 = 0.001, 48.0, "h", float_hours;
     SURFACE_ROUGHNESS_M: f32 = 0.0001, 0.1, "m", surface_roughness_m;

@@ -107,6 +107,8 @@ pub struct Object {
     pub friction: ObjectFriction,
     /// Coefficient of restitution of leaves that strike it, 0 to 1.
     pub restitution: f32,
+    /// Share of its face that air passes through, as between the boards of a fence, 0 to 0.9. Leaves and flakes do not pass.
+    pub open: f32,
     /// Reflectance of its surface, linear red, green and blue, each 0 to 1.
     pub color: Vec3,
 }
@@ -121,6 +123,7 @@ impl Default for Object {
             motion: ObjectMotion::Still,
             friction: ObjectFriction::Coulomb(0.5),
             restitution: 0.1,
+            open: 0.0,
             color: Vec3::new(0.32, 0.29, 0.25),
         }
     }

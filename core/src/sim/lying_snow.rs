@@ -5,11 +5,16 @@
 use crate::blocks::StepBlock;
 use crate::compile::CompiledScene;
 use crate::convert::word;
-use crate::device::terrain::snow::SNOW_AGES;
+use crate::device::terrain::snow::{SNOW_AGES, SNOW_INTERVAL, SNOW_TURNS};
 use crate::litter::Bed;
 
 /// Rounds an hour in which snow lies before time zero: short enough that little of it drifts in each.
 const ROUNDS_PER_H: f64 = 240.0;
+
+/// Rounds of steps in so many hours.
+pub(super) fn rounds_of(compiled: &CompiledScene, hours: f64) -> f64 {
+    3600.0 * hours / (f64::from(SNOW_INTERVAL * SNOW_TURNS) * f64::from(compiled.scene().dt_s))
+}
 
 /// Lets the snow of a world lie for so many hours, in the mean wind and the air of a step.
 pub(super) fn lie(compiled: &CompiledScene, step: &StepBlock, bed: &mut Bed, hours: f64) {

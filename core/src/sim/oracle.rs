@@ -26,7 +26,7 @@ use crate::scene::MAX_PLUMES;
 
 /// Steps the particles and the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
-    let World { compiled, clock, leaves, branches: _, bed, particles, tallies, history, burns } = world;
+    let World { compiled, clock, leaves, branches, bed, particles, tallies, history, burns } = world;
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
         let mut fires = None;
@@ -66,7 +66,7 @@ pub fn step(world: &mut World, count: u32) {
             *fire = fire_words(fire[0], *fed);
         }
         if bare.scene.has_snow() {
-            step_snow(bare, bed, flakes_of(bare.scene, particles));
+            step_snow(bare, bed, branches, flakes_of(bare.scene, particles));
         }
         follow_leaves(bare, leaves, burns, particles);
     });

@@ -5,7 +5,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::lead::lead_in;
-use super::lying_snow::lie;
+use super::lying_snow::{lie, rounds_of};
 use super::stats::Stats;
 use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
@@ -132,6 +132,8 @@ impl World {
         let cx = world.compiled.context(&step);
         if let Some(weather) = &world.compiled.scene().weather {
             world.bed.snow_mut(cx.scene).cover(&cx, weather.lying_mm);
+            let rounds = rounds_of(&world.compiled, weather.lying_h.into());
+            world.bed.hang_snow(&cx, &world.branches, weather.lying_mm, rounds);
             lie(&world.compiled, &step, &mut world.bed, weather.lying_h.into());
             if cx.scene.has_litter() {
                 mark_covered(&cx, &mut world.leaves, &world.bed);
@@ -163,7 +165,7 @@ impl World {
             .iter()
             .filter(|place| particle_state(place.bits) == PARTICLE_ALIVE)
             .count();
-        SnowStats::of(self.compiled.scene(), block, &self.bed, len32(flakes))
+        SnowStats::of(self.compiled.scene(), block, &self.bed, len32(flakes), self.clock.step())
     }
 
     /// Counts and masses of leaves that burn; `None` where none do.

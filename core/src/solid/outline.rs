@@ -19,6 +19,8 @@ pub(crate) struct Outline {
     pub(crate) points: Vec<DVec3>,
     /// Heights in m of its lowest and of its highest point.
     pub(crate) heights_m: [f64; 2],
+    /// Share of its face that air passes through.
+    pub(crate) open: f64,
 }
 
 impl Outline {
@@ -57,7 +59,7 @@ impl Outline {
         let heights = || points.iter().map(|point| point.y);
         let heights_m =
             [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
-        Self { points, heights_m }
+        Self { points, heights_m, open: solid.open.into() }
     }
 
     /// Height in m from the lowest to the highest point.

@@ -33,6 +33,8 @@ pub struct Solid {
     pub friction: ObjectFriction,
     /// Coefficient of restitution.
     pub restitution: f32,
+    /// Share of its face that air passes through.
+    pub open: f32,
     /// Reflectance, linear red, green and blue.
     pub color: Vec3,
     path: Path,
@@ -74,6 +76,7 @@ pub fn solids_of(scene: &Scene) -> Result<Vec<Solid>, SceneError> {
             faces: None,
             friction: WALKER_FRICTION,
             restitution: WALKER_RESTITUTION,
+            open: 0.0,
             color: limb.color(),
             path: Path::Limb { gait: gait.clone(), limb },
         }));
@@ -101,6 +104,7 @@ impl Solid {
             faces,
             friction: object.friction,
             restitution: object.restitution,
+            open: object.open,
             color: object.color,
             path,
         }
@@ -113,7 +117,15 @@ impl Solid {
         restitution: f32,
         pose: SolidPose,
     ) -> Self {
-        Self { shape, faces: None, friction, restitution, color: Vec3::ZERO, path: Path::Still(pose) }
+        Self {
+            shape,
+            faces: None,
+            friction,
+            restitution,
+            open: 0.0,
+            color: Vec3::ZERO,
+            path: Path::Still(pose),
+        }
     }
 
     /// Its surface, if it is a polyhedron or a mesh.

@@ -38,6 +38,8 @@ pub struct TreeFacts {
     pub crown_m2: f64,
     /// Leaves of the full crown per attachment.
     pub leaves_each: f64,
+    /// Area of these in m².
+    pub leaf_m2: f64,
     /// Mass of the wood in kg.
     pub wood_kg: f64,
     /// Mass of the full crown's leaves in kg.
@@ -138,6 +140,7 @@ pub(super) fn segment_constants(
     let facts = TreeFacts {
         crown_m2,
         leaves_each,
+        leaf_m2: leaves_each * leaf.area_m2,
         wood_kg: drafts.iter().map(|draft| draft.mass).sum(),
         leaves_kg: leaf_mass * count,
         sway_hz,

@@ -133,7 +133,13 @@ impl PorousWake {
     }
 
     /// The wake of a solid thing whose lowest and highest points are so high above the ground.
-    pub(super) fn of_solid(footprint: &Footprint, [low_m, high_m]: [f64; 2], grid: &ShelterGrid) -> Self {
+    /// Air passes through a share of it, which has no drag.
+    pub(super) fn of_solid(
+        footprint: &Footprint,
+        [low_m, high_m]: [f64; 2],
+        open: f64,
+        grid: &ShelterGrid,
+    ) -> Self {
         let [from_m, to_m] = footprint.sides_m();
         let (wide_m, tall_m) = (to_m - from_m, high_m - low_m);
         let area_m2 = wide_m * tall_m;
@@ -147,7 +153,7 @@ impl PorousWake {
             across_m: 0.5 * (from_m + to_m),
             height_m: 0.5 * (low_m + high_m),
             spread_m,
-            drag_m2: (SOLID_DRAG * area_m2).min(MOST_DRAG * TAU * spread_m[0] * spread_m[1]),
+            drag_m2: (SOLID_DRAG * (1.0 - open) * area_m2).min(MOST_DRAG * TAU * spread_m[0] * spread_m[1]),
         }
     }
 

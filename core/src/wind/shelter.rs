@@ -133,9 +133,10 @@ impl SolidWakes {
             let footprint = Footprint::of(&outline, wind);
             let stands = low_m <= STANDING_GAP * outline.height_m();
             if stands && footprint.width_m() >= LEAST_BLUFF * high_m {
-                wakes.bluff.push(BluffWake::of(footprint, high_m, grid, wind));
+                wakes.bluff.push(BluffWake::of(footprint, high_m, outline.open, grid, wind));
             } else {
-                wakes.others.push(PorousWake::of_solid(&footprint, [low_m.max(0.0), high_m], grid));
+                let heights_m = [low_m.max(0.0), high_m];
+                wakes.others.push(PorousWake::of_solid(&footprint, heights_m, outline.open, grid));
             }
         }
         wakes

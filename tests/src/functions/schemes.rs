@@ -56,18 +56,18 @@ functions! {
 
     segment_composite in "tree/sway/composite" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
-        Input::Below(500), VELOCITY
+        Input::Below(500), VELOCITY, Input::Float(0.0, 3.0)
     ) tolerance Some(1e-5);
     wgsl "let body = in_body(22u);
         let whole = segment_composite(
-            in_constants(0u), body, segment_axis(body), in_vec3(36u), f32(in_word(35u)));
+            in_constants(0u), body, segment_axis(body), in_vec3(36u), f32(in_word(35u)), in_float(39u));
         out_sym3(0u, whole.inertia); out_vec3(6u, whole.moment); out_float(9u, whole.mass); out_vec3(10u, whole.torque);
         out_vec3(13u, whole.force); out_float(16u, whole.drag); out_vec3(17u, whole.drag_moment);
         out_float(20u, whole.drag_inertia);";
     rust |cx, w| {
         let body = body(w, 22);
         let axis = segment_axis(&body);
-        results(&segment_composite(cx, &constants(w, 0), &body, axis, vector(w, 36), w[35] as f32)).0
+        results(&segment_composite(cx, &constants(w, 0), &body, axis, vector(w, 36), w[35] as f32, float(w[39]))).0
     };
 
     composite_shift in "tree/sway/composite" (Input::Floats(42, -9.0, 9.0), DIRECTION) tolerance Some(4e-6);

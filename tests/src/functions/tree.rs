@@ -108,16 +108,16 @@ functions! {
     // The axis is a direction like any other here, so that wood feels a drag that no branch would.
     segment_load in "tree/sway/load" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
-        Input::Below(500), VELOCITY
+        Input::Below(500), VELOCITY, Input::Float(0.0, 3.0)
     ) tolerance Some(1e-5);
     wgsl "let body = in_body(22u); let axis = segment_axis(body); out_vec3(11u, axis);
-        let l = segment_load(in_constants(0u), body, axis, in_vec3(36u), f32(in_word(35u)));
+        let l = segment_load(in_constants(0u), body, axis, in_vec3(36u), f32(in_word(35u)), in_float(39u));
         out_float(0u, l.rotation_along); out_float(1u, l.rotation_across); out_float(2u, l.coupling);
         out_float(3u, l.mass_along); out_float(4u, l.mass_across); out_vec3(5u, l.moment); out_vec3(8u, l.force);";
     rust |cx, w| {
         let body = body(w, 22);
         let axis = segment_axis(&body);
-        let load = segment_load(cx, &constants(w, 0), &body, axis, vector(w, 36), w[35] as f32);
+        let load = segment_load(cx, &constants(w, 0), &body, axis, vector(w, 36), w[35] as f32, float(w[39]));
         Results::new().load(&load).vec3(axis).0
     };
 

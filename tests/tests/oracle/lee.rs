@@ -84,6 +84,24 @@ fn behind_a_long_wall_the_wind_recovers_as_behind_fences() {
     }
 }
 
+/// Behind a fence of which half is open the wake lacks half as much (Perera, 1981), and a third of the wind is left where a wall leaves none (Taylor's screen with
+/// Hoerner's pressure drop of two dynamic pressures); nothing turns back before it.
+#[test]
+fn air_passes_through_what_is_open() {
+    let of = |open: f32| Shares::of(&yard(vec![Object { open, ..block(WALL_M, [0.0, 0.0]) }]));
+    let (wall, fence, netting) = (of(0.0), of(0.5), of(0.8));
+    let behind = |shares: &Shares, heights: f64, up: f64| shares.at(at(0.1 + 2.0 * heights, 2.0 * up, 0.0));
+    for heights in [8.0, 12.0, 20.0] {
+        let (half, whole) = (1.0 - behind(&fence, heights, 0.5), 1.0 - behind(&wall, heights, 0.5));
+        assert!((half - 0.5 * whole).abs() < 0.02, "{heights} heights behind: {half} of {whole}");
+    }
+    let near = behind(&fence, 2.0, 0.3);
+    assert!((near - 1.0 / 3.0).abs() < 0.03 && behind(&wall, 2.0, 0.3) < 0.02, "right behind: {near}");
+    assert!(behind(&netting, 2.0, 0.3) > 0.8, "netting hardly shelters");
+    let foot: Vec<f64> = [0.05, 0.25, 0.6, 1.2].iter().map(|heights| behind(&fence, -heights, 0.01)).collect();
+    assert!(foot.iter().all(|share| *share > 0.6) && behind(&wall, -0.6, 0.01) < 0.0, "before: {foot:.3?}");
+}
+
 /// Taylor and Salmon, 1993: the wakes of cubes are short.
 #[test]
 fn wakes_of_solids_grow_with_their_height_and_width() {

@@ -6,6 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod branch_snow;
 mod burning;
 mod collide;
 mod cone_spiral;

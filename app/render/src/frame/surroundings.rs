@@ -28,7 +28,7 @@ const VISIBILITY_DEPTH: f32 = 3.912;
 
 shared_struct! {
     /// Camera, sun and air of a frame. Light is in kcd/m².
-    pub(crate) struct FrameUniform, padding 8 {
+    pub(crate) struct FrameUniform, padding 4 {
         /// World to clip space.
         pub(crate) view_projection: [[f32; 4]; 4],
         /// World to the sun's clip space, for the slices of the view from near to far; then to that of the map from above.
@@ -84,6 +84,8 @@ shared_struct! {
         ambient: [Float4; 9],
         /// Direction that the park's path leads, x and z.
         path_lead: [f32; 2],
+        /// First word of the snow on branches in the buffer of the bed; 0 without any.
+        pub(crate) branch_snow_word: u32,
     }
 }
 
@@ -204,7 +206,8 @@ impl Surroundings {
             texels_m: maps.map(|map| map.texel_m),
             ambient: self.ambient.map(|light| Float4(light.extend(0.0).to_array())),
             path_lead: self.path.lead.to_array(),
-            padding: [0; 8],
+            branch_snow_word: 0,
+            padding: [0; 4],
         }
     }
 }

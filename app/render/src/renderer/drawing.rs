@@ -101,6 +101,7 @@ impl Renderer {
         if let Some(snow) = &mut self.snow_pass {
             frame.snow_depth_m = snow.open_depth_m(input.time_s);
             snow.prepare(&self.device, &self.queue, world.bed.as_ref());
+            frame.branch_snow_word = snow.branch_word(world.bed.as_ref());
         }
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {
@@ -120,7 +121,12 @@ impl Renderer {
         }
         let leaves = &world.leaves;
         let visible = self.visible();
-        let group = self.branches.bind(&self.device, world.branches.as_ref(), &self.tree_records);
+        let group = self.branches.bind(
+            &self.device,
+            world.branches.as_ref(),
+            &self.tree_records,
+            world.bed.as_ref(),
+        );
         let casters = Casters {
             species_table: &self.species_table,
             visible: &visible,

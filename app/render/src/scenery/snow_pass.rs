@@ -5,7 +5,7 @@
 use windfall_core::CompiledScene;
 use windfall_core::blocks::SceneBlock;
 use windfall_core::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
-use windfall_core::device::terrain::snow::{SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_STEP_M};
+use windfall_core::device::terrain::snow::{SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_STEP_M, SNOW_WORDS};
 use windfall_core::shared_struct;
 use windfall_wgpu::BedColumn;
 
@@ -111,6 +111,13 @@ impl SnowPass {
     pub(crate) fn open_depth_m(&self, time_s: f64) -> f32 {
         #[expect(clippy::cast_possible_truncation, reason = "some metres")]
         self.compiled.open_snow(time_s).map_or(0.0, |snow| snow.depth_m as f32)
+    }
+
+    /// First word of the snow on branches in the buffer of a bed; 0 without any.
+    pub(crate) fn branch_word(&self, bed: Option<&BedColumn<'_>>) -> u32 {
+        let snow = &self.compiled.block().snow;
+        let first = snow.first_word + SNOW_WORDS * self.cells;
+        bed.filter(|_| snow.branches != 0).map_or(0, |bed| bed.first_word + first)
     }
 
     /// Binds the bed of a world.

@@ -10,6 +10,11 @@
 @group(2) @binding(4) var barks: texture_2d_array<f32>;
 @group(2) @binding(5) var bark_sampler: sampler;
 @group(2) @binding(6) var<storage, read> tree_records: array<TreeRecord>;
+@group(2) @binding(7) var<storage, read> bed_words: array<u32>;
+
+// Kilograms of a unit of water, and metres of depth per kg/m² of snow.
+const SNOW_UNIT_KG: f32 = 1.0 / 262144.0;
+const SNOW_M_PER_KG_M2: f32 = 0.011;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -21,6 +26,22 @@ struct Varyings {
     @location(4) @interpolate(flat) kind: u32,
     // Random number of the tree.
     @location(5) @interpolate(flat) own: f32,
+    // Depth in metres of the snow on it.
+    @location(6) @interpolate(perspective, centroid) snow_m: f32,
+}
+
+// Depth in metres of the snow on the segments that a point of the bark goes with.
+fn branch_snow_m(vertex: BarkVertex) -> f32 {
+    if frame.branch_snow_word == 0u {
+        return 0.0;
+    }
+    var depth_m = 0.0;
+    for (var slot = 0u; slot < 4u; slot++) {
+        let row = vertex.rows[slot];
+        let held_kg = f32(bed_words[frame.branch_snow_word + row]) * SNOW_UNIT_KG;
+        depth_m += vertex.shares[slot] * held_kg / max(rest_base[row].w, 1.0e-4);
+    }
+    return depth_m * SNOW_M_PER_KG_M2 / max(dot(vertex.shares, vec4(1.0)), 1.0e-6);
 }
 
 @vertex
@@ -33,6 +54,9 @@ fn vertex(bark: BarkVertex, @builtin(instance_index) record: u32) -> Varyings {
     let least = tree.twig_px * pixel;
     var out: Varyings;
     out.world = point.world + point.normal * max(least - radius, 0.0);
+    // Snow lies on the upper side, no thicker than a thin twig bears.
+    out.snow_m = branch_snow_m(bark);
+    out.world.y += min(out.snow_m, 0.004 + 2.0 * radius) * smoothstep(0.0, 0.7, point.normal.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     out.normal = point.normal;
     out.uv = bark.uv;
@@ -92,7 +116,13 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let dv = cross(down, smooth_normal) * dpdx(uv.y) + cross(smooth_normal, across) * dpdy(uv.y);
     let scale = inverseSqrt(max(max(dot(du, du), dot(dv, dv)), 1.0e-20));
     let tilt = (relief.xy * 2.0 - 1.0) * old;
-    let normal = normalize(smooth_normal + scale * (du * tilt.x + dv * tilt.y));
+    let rough_normal = normalize(smooth_normal + scale * (du * tilt.x + dv * tilt.y));
+
+    // Thin snow lies on what is level first.
+    let covers = in.snow_m * (0.6 + 0.8 * stain);
+    let snow = smoothstep(0.0, 0.2, smooth_normal.y - mix(0.95, 0.1, smoothstep(0.0005, 0.012, covers))) * f32(in.snow_m > 0.0);
+    albedo = mix(albedo, vec3(0.84, 0.86, 0.89), snow);
+    let normal = normalize(mix(rough_normal, smooth_normal, snow));
 
     let to_eye = normalize(frame.eye_m - in.world);
     let light = frame.sun_direction;
@@ -101,7 +131,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let shade = tree_shade(in.world);
     let sun = frame.sun_color * shade.r * leaf_shadow(in.world + smooth_normal * 0.02 + light * 0.03);
     // Rough wood looks lit a little beyond the edge of the light.
-    let lit = clamp((facing + 0.08) / 1.08, 0.0, 1.0) * mix(0.6, 1.0, deep);
+    let lit = clamp((facing + 0.08) / 1.08, 0.0, 1.0) * mix(0.6, 1.0, max(deep, snow));
     // Grass hides the sky from the foot.
     let foot = mix(0.45, 1.0, smoothstep(-0.02, 0.35, height));
     // Beside a trunk the sky is open to the sides; what grows out of it above is none of its shade.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The branch columns, now and at rest, for shaders that move things with the branches.
 
-use windfall_wgpu::BranchColumns;
+use windfall_wgpu::{BedColumn, BranchColumns};
 
 use super::bark_texture::{BARK_SIZE, paint_bark};
 use super::records::TreeRecords;
@@ -37,6 +37,7 @@ impl BranchGroup {
                 texture_entry(4, FILTERABLE, wgpu::TextureViewDimension::D2Array),
                 sampler_entry(5, wgpu::SamplerBindingType::Filtering),
                 column(6),
+                column(7),
             ],
         });
         let painted: Vec<_> = BarkKind::ALL.into_iter().map(paint_bark).collect();
@@ -70,12 +71,13 @@ impl BranchGroup {
         }
     }
 
-    /// The group with the present `branches`; without any, or with those of another scene, the trees are at rest.
+    /// The group with the present `branches`; without any, or with those of another scene, the trees are at rest. `bed` holds the snow on them.
     pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
         branches: Option<&BranchColumns<'_>>,
         records: &TreeRecords,
+        bed: Option<&BedColumn<'_>>,
     ) -> wgpu::BindGroup {
         let present = branches.filter(|branches| branches.count == self.count);
         let rest = [&self.rest_base, &self.rest_pose].map(wgpu::Buffer::as_entire_buffer_binding);
@@ -88,10 +90,12 @@ impl BranchGroup {
             resource: wgpu::BindingResource::Buffer(rows),
         });
         let barks = wgpu::BindingResource::TextureView(&self.barks);
+        let snow = bed.map_or(&self.rest_base, |bed| bed.buffer).as_entire_binding();
         let textures = [
             wgpu::BindGroupEntry { binding: 4, resource: barks },
             wgpu::BindGroupEntry { binding: 5, resource: wgpu::BindingResource::Sampler(&self.sampler) },
             wgpu::BindGroupEntry { binding: 6, resource: records.buffer().as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 7, resource: snow },
         ];
         let entries: Vec<_> = columns.chain(textures).collect();
         device.create_bind_group(&wgpu::BindGroupDescriptor {

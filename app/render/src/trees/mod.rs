@@ -18,7 +18,8 @@ use std::sync::Arc;
 use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::layout::WgslStruct;
-use windfall_core::tree::{Forest, Skeleton};
+use windfall_core::tree::forest::Planted;
+use windfall_core::tree::{AttachmentKind, Forest, Segment, Skeleton};
 
 pub(crate) use cluster::MAX_CLUSTER;
 pub use cluster::{TWIG_SIZE, cluster};
@@ -71,19 +72,36 @@ impl StandingTree {
 pub struct SceneTrees {
     /// The trees in the scene's order.
     pub trees: Vec<StandingTree>,
-    /// World position of every segment's lower joint at rest, in the order of the rows; w unused.
+    /// World position of every segment's lower joint at rest, in the order of the rows, and the area in m² on which snow may lie on it.
     pub rest_base: Vec<[f32; 4]>,
     /// World orientation of every segment at rest, x, y, z, w: y along the segment.
     pub rest_pose: Vec<[f32; 4]>,
 }
 
+/// Area of the wood of each segment of a tree, as seen from above when it lies level, and of the leaves of the full crown on it.
+fn snow_areas_m2(tree: &Planted) -> Vec<f32> {
+    let segments = tree.skeleton.segments.iter();
+    let wood =
+        |one: &Segment| one.start_m.distance(one.end_m) * (one.start_radius_m + one.end_radius_m);
+    let mut areas_m2: Vec<f32> = segments.map(wood).collect();
+    for leaf in tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf) {
+        #[expect(clippy::cast_possible_truncation, reason = "a few digits")]
+        let leaf_m2 = tree.facts.leaf_m2 as f32;
+        areas_m2[leaf.segment as usize] += leaf_m2;
+    }
+    areas_m2
+}
+
 impl SceneTrees {
     /// The trees of a scene as they stand in its world.
     pub fn of(scene: &Scene, forest: &Forest) -> Self {
-        let branches = forest.at_rest();
+        let mut branches = forest.at_rest();
         let mut trees = Vec::with_capacity(scene.trees.len());
         for (tree, planted) in scene.trees.iter().zip(forest.trees()) {
             let Some(kind) = scene.tree_kind(&tree.kind) else { continue };
+            for (area_m2, &row) in snow_areas_m2(planted).into_iter().zip(&planted.rows) {
+                branches.base[row as usize][3] = area_m2;
+            }
             let named = kind.foliage.species.as_ref();
             let species = named.and_then(|name| scene.species.iter().position(|kind| kind.name == *name));
             let species = species.and_then(|index| u32::try_from(index).ok());

@@ -50,6 +50,8 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let tip = "Coefficient of restitution of leaves that strike it";
     let restitution = field("Restitution", tip, limits::RESTITUTION);
     restitution.show(ui, &mut object.restitution, own.map(|own| own.restitution));
+    let tip = "Share of its face that air passes through, as between the boards of a fence";
+    field("Open", tip, limits::OPEN).fine(0.05).show(ui, &mut object.open, own.map(|own| own.open));
     let tip = "Reflectance of its surface: linear red, green and blue";
     vector(ui, "Colour", tip, &mut object.color, own.map(|own| own.color), limits::COLOR);
     motion(ui, &mut object.motion, own.map(|own| &own.motion));

@@ -5,6 +5,7 @@
 #import particle/flake_bindings
 #import particle/record
 #import terrain/snow
+#import tree/branch_snow
 
 // The tables, behind which the snow is: nothing else of them is written.
 @group(0) @binding(2) var<storage, read_write> table_words: array<atomic<u32>>;
@@ -39,6 +40,14 @@ fn land_flakes(@builtin(global_invocation_id) id: vec3<u32>) {
     if (open < 0.0) {
         atomicAdd(&table_words[snow_word(SNOW_MELTED, middle)], water);
         atomicAdd(&table_words[snow_word(SNOW_LANDED, middle)], water);
+        return;
+    }
+    if (flake_is_caught(place.position.x, place.position.z, open)) {
+        let square = crown_square(middle);
+        let pool = crown_pool(step_block.index);
+        let bed = scene.litter.first_row * 4u;
+        atomicAdd(&table_words[bed + crown_word(square, pool)], water);
+        atomicAdd(&table_words[bed + crown_word(square, pool + 1u)], water);
         return;
     }
     var left = water;

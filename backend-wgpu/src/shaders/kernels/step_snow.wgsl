@@ -3,6 +3,7 @@
 // twin: backend-cpu/src/kernels/step_snow.rs
 // Lets snow slide and drift from cell to cell, or settle and melt, in the steps in which it does.
 #import terrain/snow
+#import tree/branch_snow
 #import wind/shelter
 
 // The tables, behind which the snow is: nothing else of them is written.
@@ -42,6 +43,31 @@ fn wind_left(cell: u32, snow: SnowCell) -> f32 {
     return shelter_left(place, words);
 }
 
+fn clear_crown(cell: u32) {
+    let column = cell % scene.snow.columns;
+    let line = cell / scene.snow.columns;
+    if (scene.snow.branches == 0u || column % CROWN_CELLS != 0u || line % CROWN_CELLS != 0u) {
+        return;
+    }
+    let square = crown_square(cell);
+    let pool = 2u - crown_pool(step_block.index);
+    let bed = scene.litter.first_row * 4u;
+    snow_words[bed + crown_word(square, pool)] = 0u;
+    snow_words[bed + crown_word(square, pool + 1u)] = 0u;
+}
+
+fn fall_through_crown(cell: u32, open: f32) {
+    let left = crown_word(crown_square(cell), crown_pool(step_block.index) + 1u);
+    let part = crown_part(cell, snow_words[scene.litter.first_row * 4u + left]);
+    snow_words[snow_word(SNOW_LANDED, cell)] += part;
+    if (open < 0.0) {
+        snow_words[snow_word(SNOW_MELTED, cell)] += part;
+    } else {
+        snow_words[snow_word(SNOW_WATER, cell)] += part;
+        snow_words[snow_word(SNOW_DEPTH, cell)] += fresh_depth(part);
+    }
+}
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
     let cell = id.x;
@@ -49,8 +75,14 @@ fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let turn = snow_turn(step_block.index);
-    let one = read_snow(cell);
     let on = lies_on(cell);
+    if (turn == 0u) {
+        clear_crown(cell);
+    }
+    if (turn == SNOW_AGES && scene.snow.branches != 0u) {
+        fall_through_crown(cell, on.y);
+    }
+    let one = read_snow(cell);
     if (turn == SNOW_AGES) {
         if (one.water != 0u) {
             let after = snow_age(cell, one, on.y);

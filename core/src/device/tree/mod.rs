@@ -2,4 +2,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees, as their segments move.
 
+pub mod branch_snow;
 pub mod sway;

@@ -46,6 +46,7 @@ impl Object {
             ("heading_deg", self.heading_deg.into(), limits::HEADING_DEG),
             ("tilt_deg", self.tilt_deg.into(), limits::OBJECT_TILT_DEG),
             ("restitution", self.restitution.into(), limits::RESTITUTION),
+            ("open", self.open.into(), limits::OPEN),
         ])?;
         let (name, number, limit) = match self.friction {
             ObjectFriction::Coulomb(coefficient) => ("Coulomb", coefficient, limits::COULOMB),

@@ -23,6 +23,7 @@ fn segment_composite(
     axis: vec3<f32>,
     air: vec3<f32>,
     leaf_count: f32,
+    snow_kg: f32,
 ) -> Composite {
     let half = constants.length * 0.5;
     let middle = axis * half;
@@ -31,7 +32,7 @@ fn segment_composite(
     let held = drag.wood + drag.leaves;
     let push = air * held - axis * (vec3_dot(air, axis) * drag.wood);
 
-    let leaves = constants.leaf_mass * leaf_count;
+    let leaves = constants.leaf_mass * leaf_count + snow_kg;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

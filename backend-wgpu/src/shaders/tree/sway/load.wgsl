@@ -39,7 +39,7 @@ fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
     return wind_at_moment(MOMENT_MIDDLE, body.base + axis * length);
 }
 
-fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: vec3<f32>, leaf_count: f32) -> Load {
+fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: vec3<f32>, leaf_count: f32, snow_kg: f32) -> Load {
     let half = constants.length * 0.5;
     let middle = axis * half;
     let velocity = body.velocity + vec3_cross(body.spin, middle);
@@ -47,7 +47,7 @@ fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: v
     let held = drag.wood + drag.leaves;
     let push = drag.across * drag.wood + drag.wind * drag.leaves;
 
-    let leaves = constants.leaf_mass * leaf_count;
+    let leaves = constants.leaf_mass * leaf_count + snow_kg;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

@@ -3,6 +3,7 @@
 // twin: core/src/device/tree/sway/row.rs
 // One segment in each pass of a step.
 #import tree/bindings
+#import tree/branch_snow
 #import tree/sway/coast
 #import tree/sway/composite
 #import tree/sway/inward
@@ -68,7 +69,7 @@ fn row_inward(row: u32) {
     let axis = segment_axis(body);
     let products = velocity_products(body, parent_body(constants.parent));
     let leaf_count = f32(leaf_counts[row]);
-    let load = segment_load(constants, body, axis, row_air(row), leaf_count);
+    let load = segment_load(constants, body, axis, row_air(row), leaf_count, branch_snow_kg(row));
     if (constants.first_child == TWIG) {
         let spring = joint_spring(constants, joint, body, load_trace(load));
         let reduction = twig_response(spring, load, axis, products);
@@ -111,7 +112,7 @@ fn row_gather(row: u32) {
     let constants = segments[row];
     let body = row_body(row);
     let leaf_count = f32(leaf_counts[row]);
-    var whole = segment_composite(constants, body, segment_axis(body), row_air(row), leaf_count);
+    var whole = segment_composite(constants, body, segment_axis(body), row_air(row), leaf_count, branch_snow_kg(row));
     for (var child = constants.first_child; child < TWIG; child = segments[child].next_sibling) {
         let arm = row_body(child).base - body.base;
         whole = composite_add(whole, composite_shift(load_composite(child), arm));

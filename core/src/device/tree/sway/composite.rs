@@ -39,7 +39,7 @@ pub struct Composite {
     pub drag_inertia: f32,
 }
 
-/// Rigid body of a segment by itself that carries `leaf_count` leaves in moving air.
+/// Rigid body of a segment by itself that carries `leaf_count` leaves and so much snow in moving air.
 #[inline(always)]
 pub fn segment_composite(
     cx: &Context<'_>,
@@ -48,6 +48,7 @@ pub fn segment_composite(
     axis: Vec3,
     air: Vec3,
     leaf_count: f32,
+    snow_kg: f32,
 ) -> Composite {
     let half = constants.length * 0.5;
     let middle = axis * half;
@@ -56,7 +57,7 @@ pub fn segment_composite(
     let held = drag.wood + drag.leaves;
     let push = air * held - axis * (vec3_dot(air, axis) * drag.wood);
 
-    let leaves = constants.leaf_mass * leaf_count;
+    let leaves = constants.leaf_mass * leaf_count + snow_kg;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

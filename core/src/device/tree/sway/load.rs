@@ -70,7 +70,7 @@ pub fn segment_air<R: Real>(cx: &Context<'_>, body: &Body<R>, axis: Vec3<R>, len
     wind_at_moment(cx, MOMENT_MIDDLE, body.base + axis * length)
 }
 
-/// Load on a segment with `leaf_count` leaves in air of velocity `air`.
+/// Load on a segment with `leaf_count` leaves and so much snow, in air of velocity `air`.
 #[inline(always)]
 pub fn segment_load<R: Real>(
     cx: &Context<'_>,
@@ -79,6 +79,7 @@ pub fn segment_load<R: Real>(
     axis: Vec3<R>,
     air: Vec3<R>,
     leaf_count: R,
+    snow_kg: R,
 ) -> Load<R> {
     let half = constants.length * 0.5;
     let middle = axis * half;
@@ -87,7 +88,7 @@ pub fn segment_load<R: Real>(
     let held = drag.wood + drag.leaves;
     let push = drag.across * drag.wood + drag.wind * drag.leaves;
 
-    let leaves = constants.leaf_mass * leaf_count;
+    let leaves = constants.leaf_mass * leaf_count + snow_kg;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

@@ -22,6 +22,7 @@ use super::{Body, Constants, Joint, SCHEME_QUIGLEY};
 use crate::arith::Vec3;
 use crate::arith::matrix::sym3_trace;
 use crate::context::Context;
+use crate::device::tree::branch_snow::branch_snow_kg;
 use crate::tree::BranchesMut;
 use crate::tree::forest::first_three;
 use crate::tree::record::{NO_SEGMENT, SegmentConstants, Work, children_of};
@@ -54,6 +55,13 @@ impl Rows<'_> {
     #[inline(always)]
     fn joint(&self, row: usize) -> Joint {
         Joint { turn: self.branches.turn[row].into(), rate: first_three(self.branches.rate[row]) }
+    }
+
+    /// Number of a row in the forest.
+    #[expect(clippy::cast_possible_truncation, reason = "segments are counted in words")]
+    #[inline(always)]
+    fn number(&self, row: usize) -> u32 {
+        self.first + row as u32
     }
 
     /// Pose and velocity of the segment that `row` grows from, or of the ground.
@@ -109,7 +117,8 @@ pub fn row_inward(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let products = velocity_products(&body, &rows.parent_body(row));
     let leaf_count = rows.branches.leaf_count[row] as f32;
     let air = row_air(cx, rows, row);
-    let load = segment_load(cx, &constants, &body, axis, air, leaf_count);
+    let snow_kg = branch_snow_kg(cx, rows.number(row));
+    let load = segment_load(cx, &constants, &body, axis, air, leaf_count, snow_kg);
     let apparent = if rows.segments[row].is_twig() {
         let spring = joint_spring(cx, &constants, &joint, &body, load_trace(&load));
         let (response, apparent) = twig_response(&spring, &load, axis, &products);
@@ -156,7 +165,8 @@ pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let body = rows.body(row);
     let leaf_count = rows.branches.leaf_count[row] as f32;
     let air = row_air(cx, rows, row);
-    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), air, leaf_count);
+    let snow_kg = branch_snow_kg(cx, rows.number(row));
+    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), air, leaf_count, snow_kg);
     for child in rows.children(row) {
         let arm = rows.body(child).base - body.base;
         whole = composite_add(&whole, &composite_shift(&load_composite(&rows.work[child]), arm));

@@ -470,10 +470,10 @@ prop_compose! {
         friction in prop_oneof![
             within(limits::COULOMB).prop_map(ObjectFriction::Coulomb), within(limits::LOSS).prop_map(ObjectFriction::Loss),
         ],
-        restitution in within(limits::RESTITUTION),
+        (restitution, open) in (within(limits::RESTITUTION), within(limits::OPEN)),
         color in vector(limits::COLOR),
     ) -> Object {
-        Object { shape, at_m, heading_deg, tilt_deg, motion, friction, restitution, color }
+        Object { shape, at_m, heading_deg, tilt_deg, motion, friction, restitution, open, color }
     }
 }
 

@@ -80,6 +80,7 @@ const REALS: &[Row] = &[
     ("objects[0].heading_deg", -360.0, 360.0, |s, v| s.objects[0].heading_deg = v),
     ("objects[0].tilt_deg", -180.0, 180.0, |s, v| s.objects[0].tilt_deg = v),
     ("objects[0].restitution", 0.0, 1.0, |s, v| s.objects[0].restitution = v),
+    ("objects[0].open", 0.0, 0.9, |s, v| s.objects[0].open = v),
     ("objects[0].friction.Coulomb", 0.0, 5.0, |s, v| s.objects[0].friction = ObjectFriction::Coulomb(v)),
     ("objects[0].friction.Loss", 0.0, 1.0, |s, v| s.objects[0].friction = ObjectFriction::Loss(v)),
     ("objects[0].color.x", 0.0, 1.0, |s, v| s.objects[0].color.x = v),

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/tree/branch_snow.rs
+// Snow on the branches of trees.
+#import arith/math
+#import arith/rng
+#import bindings
+#import terrain/snow
+
+struct BranchCatch {
+    square: u32,
+    share: f32,
+    wood_m2: f32,
+    leaf_m2: f32,
+}
+
+struct BranchRound {
+    held: u32,
+    given: u32,
+}
+
+fn crown_columns() -> u32 {
+    return (scene.snow.columns + (CROWN_CELLS - 1u)) / CROWN_CELLS;
+}
+
+fn crown_squares() -> u32 {
+    return crown_columns() * ((scene.snow.lines + (CROWN_CELLS - 1u)) / CROWN_CELLS);
+}
+
+fn crown_square(cell: u32) -> u32 {
+    return (cell / scene.snow.columns / CROWN_CELLS) * crown_columns() + (cell % scene.snow.columns) / CROWN_CELLS;
+}
+
+fn crown_width(cell: u32) -> u32 {
+    return min(CROWN_CELLS, scene.snow.columns - (cell % scene.snow.columns) / CROWN_CELLS * CROWN_CELLS);
+}
+
+fn crown_part(cell: u32, units: u32) -> u32 {
+    let column = cell % scene.snow.columns;
+    let line = cell / scene.snow.columns;
+    let width = crown_width(cell);
+    let high = min(CROWN_CELLS, scene.snow.lines - line / CROWN_CELLS * CROWN_CELLS);
+    return (units + (line % CROWN_CELLS) * width + column % CROWN_CELLS) / (width * high);
+}
+
+fn crown_pool(step: u32) -> u32 {
+    return 2u * (((step + (SNOW_INTERVAL - 1u)) / (SNOW_INTERVAL * SNOW_TURNS)) & 1u);
+}
+
+fn crown_word(square: u32, word: u32) -> u32 {
+    let snow = scene.snow;
+    return snow.first_word + SNOW_WORDS * (snow.columns * snow.lines) + snow.branches + word * crown_squares() + square;
+}
+
+fn flake_is_caught(x: f32, z: f32, open: f32) -> bool {
+    if (scene.snow.branches == 0u || 1.0 <= open || open < 0.0) {
+        return false;
+    }
+    let words = philox(scene.seed, vec4<u32>(bitcast<u32>(x), STREAM_CROWN, step_block.index, bitcast<u32>(z)));
+    return open <= unit_float(words.x);
+}
+
+fn branch_catch(row: u32) -> BranchCatch {
+    let words = tables[scene.snow.first_branch_row + row];
+    return BranchCatch(words.x, bitcast<f32>(words.y), bitcast<f32>(words.z), bitcast<f32>(words.w));
+}
+
+fn branch_room(catch_by: BranchCatch, leaf_count: f32, axis_y: f32) -> f32 {
+    let level_share = max(1.0 - axis_y * axis_y, 0.0);
+    return step_block.snow.branch_units_m2 * (catch_by.wood_m2 * level_share + catch_by.leaf_m2 * leaf_count);
+}
+
+fn branch_round(
+    row: u32,
+    catch_by: BranchCatch,
+    room: f32,
+    held: u32,
+    fresh: u32,
+    spin_squared: f32,
+) -> BranchRound {
+    let before = f32(held);
+    let free = max(1.0 - before * reciprocal(max(room, 1.0)), 0.0);
+    let caught = min(u32(floor(f32(fresh) * (catch_by.share * free))), fresh);
+    var share = step_block.snow.branch_sheds;
+    if (SHAKING_SQUARED < spin_squared) {
+        share += SHAKEN_SHARE;
+    }
+    let over = max(before - room, 0.0);
+    let falls = over + (before - over) * min(share, 1.0);
+    let words = philox(scene.seed, vec4<u32>(row, STREAM_BRANCH, step_block.index, 0u));
+    let shed = min(round_at_random(falls, words.x), held);
+    return BranchRound(held - shed + caught, shed - caught);
+}
+
+fn branch_snow_kg(row: u32) -> f32 {
+    if (scene.snow.branches == 0u) {
+        return 0.0;
+    }
+    let place = scene.snow.first_word + SNOW_WORDS * (scene.snow.columns * scene.snow.lines) + row;
+    return f32(tables[scene.litter.first_row + (place >> 2u)][place & 3u]) * SNOW_UNIT_KG;
+}

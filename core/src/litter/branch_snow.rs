@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Snow on the branches of a world, and what has come down over its crowns and waits to be caught.
+
+use crate::arith::Vec3;
+use crate::arith::quaternion::quat_axis_y;
+use crate::arith::vector::vec3_dot;
+use crate::blocks::{NEVER, SceneBlock, SnowBlock};
+use crate::context::Context;
+use crate::convert::word;
+use crate::device::terrain::snow::{SNOW_WATER_MM, SNOW_WORDS, fresh_depth, snow_cell};
+use crate::device::tree::branch_snow::{
+    CROWN_CELLS, CROWN_WORDS, branch_catch, branch_room, branch_round, crown_columns, crown_part, crown_pool,
+    crown_square, crown_squares, flake_is_caught,
+};
+use crate::tree::Branches;
+use crate::tree::forest::first_three;
+
+use super::Bed;
+use super::snow::lies_on;
+
+/// Snow on branches, and over the squares of the crowns; empty where no tree stands around the snow.
+#[derive(Debug)]
+pub struct BranchSnowMut<'a> {
+    /// Units of water on each segment.
+    pub held: &'a mut [u32],
+    /// The words of the squares, one after another for all of them.
+    pub crowns: &'a mut [u32],
+}
+
+impl Bed {
+    /// Number of words of the snow on branches.
+    pub(super) fn branch_snow_words(snow: &SnowBlock) -> usize {
+        if snow.branches == 0 { 0 } else { (snow.branches + CROWN_WORDS * crown_squares(snow)) as usize }
+    }
+
+    /// Range of its words.
+    fn branch_snow_range(scene: &SceneBlock) -> std::ops::Range<usize> {
+        let snow = &scene.snow;
+        let first = snow.first_word as usize + (SNOW_WORDS * snow.columns * snow.lines) as usize;
+        first..first + Self::branch_snow_words(snow)
+    }
+
+    /// Units of water on each segment; empty where no tree stands around the snow.
+    pub fn branch_snow(&self, scene: &SceneBlock) -> &[u32] {
+        &self.words[Self::branch_snow_range(scene)][..scene.snow.branches as usize]
+    }
+
+    /// Units of water that crowns have caught and not yet taken, before a step.
+    pub(super) fn in_crowns(&self, scene: &SceneBlock, step: u32) -> &[u32] {
+        if scene.snow.branches == 0 {
+            return &[];
+        }
+        let squares = crown_squares(&scene.snow) as usize;
+        let crowns = &self.words[Self::branch_snow_range(scene)][scene.snow.branches as usize..];
+        &crowns[(crown_pool(step) as usize + 1) * squares..][..squares]
+    }
+
+    /// The snow on branches, to be changed.
+    pub fn branch_snow_mut(&mut self, scene: &SceneBlock) -> BranchSnowMut<'_> {
+        let words = &mut self.words[Self::branch_snow_range(scene)];
+        let (held, crowns) = words.split_at_mut(scene.snow.branches as usize);
+        BranchSnowMut { held, crowns }
+    }
+
+    /// Lets a flake land, on the cells or in a crown above them.
+    pub fn land_flake(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32) {
+        let cell = snow_cell(&cx.scene.snow, x_m, z_m);
+        if cell == NEVER || !flake_is_caught(cx, x_m, z_m, lies_on(cx, cell)[1]) {
+            self.snow_mut(cx.scene).land(cx, x_m, z_m);
+            return;
+        }
+        let snow = &cx.scene.snow;
+        let [fresh, left] = crown_places(snow, crown_square(snow, cell), crown_pool(cx.step.index));
+        let crowns = self.branch_snow_mut(cx.scene).crowns;
+        for place in [fresh, left] {
+            crowns[place] = crowns[place].wrapping_add(snow.flake_water);
+        }
+    }
+
+    /// Lets the segments of all trees take, in the last exchange of a round, what has come down over their squares, and lose what falls from them.
+    pub fn step_branch_snow(&mut self, cx: &Context<'_>, branches: &Branches) {
+        let snow = &cx.scene.snow;
+        let BranchSnowMut { held, crowns } = self.branch_snow_mut(cx.scene);
+        for (row, held) in (0..).zip(held) {
+            let catch = branch_catch(cx, row);
+            if catch.square == NEVER {
+                continue;
+            }
+            let [fresh, left] = crown_places(snow, catch.square, crown_pool(cx.step.index));
+            let at = row as usize;
+            let spin: Vec3 = first_three(branches.spin[at]);
+            #[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
+            let leaf_count = branches.leaf_count[at] as f32;
+            let room = branch_room(cx, catch, leaf_count, quat_axis_y(branches.pose[at].into()).y);
+            let after = branch_round(cx, row, catch, room, *held, crowns[fresh], vec3_dot(spin, spin));
+            *held = after.held;
+            crowns[left] = crowns[left].wrapping_add(after.given);
+        }
+    }
+
+    /// Lets what segments have not taken fall on to the cells, which is what the squares hold from one exchange to the next.
+    pub fn fall_through_crowns(&mut self, cx: &Context<'_>) {
+        let snow = &cx.scene.snow;
+        if snow.branches == 0 {
+            return;
+        }
+        let (mut cells, words) = self.all_snow_mut(cx.scene);
+        let first = snow.branches + (crown_pool(cx.step.index) + 1) * crown_squares(snow);
+        let left = &words[first as usize..][..crown_squares(snow) as usize];
+        for (square, &units) in (0..).zip(left).filter(|(_, units)| **units != 0) {
+            let (column, line) = (square % crown_columns(snow), square / crown_columns(snow));
+            for line in (line * CROWN_CELLS..snow.lines).take(CROWN_CELLS as usize) {
+                for column in (column * CROWN_CELLS..snow.columns).take(CROWN_CELLS as usize) {
+                    let cell = line * snow.columns + column;
+                    cells.fall(cx, cell, crown_part(snow, cell, units));
+                }
+            }
+        }
+    }
+
+    /// Empties the squares of the round before.
+    pub fn clear_crowns(&mut self, cx: &Context<'_>) {
+        if cx.scene.snow.branches != 0 {
+            let squares = crown_squares(&cx.scene.snow) as usize;
+            let first = (2 - crown_pool(cx.step.index)) as usize * squares;
+            self.branch_snow_mut(cx.scene).crowns[first..][..2 * squares].fill(0);
+        }
+    }
+
+    /// Lays on the branches what they hold of fresh snow of so much water in mm that has fallen before time zero and has lain for so many hours, and takes
+    /// it from the cells beneath.
+    pub(crate) fn hang_snow(&mut self, cx: &Context<'_>, branches: &Branches, mm: f32, rounds: f64) {
+        let snow = &cx.scene.snow;
+        if snow.branches == 0 || mm <= 0.0 {
+            return;
+        }
+        let squares = crown_squares(snow) as usize;
+        let units = f64::from(mm) / f64::from(SNOW_WATER_MM);
+        let mut fallen = vec![0.0_f64; squares];
+        let mut least = vec![u32::MAX; squares];
+        let mut count = vec![0_u32; squares];
+        let cells = snow.columns * snow.lines;
+        for cell in 0..cells {
+            let square = crown_square(snow, cell) as usize;
+            fallen[square] += units * f64::from((1.0 - lies_on(cx, cell)[1]).clamp(0.0, 1.0));
+            least[square] = least[square].min(self.snow(cx.scene).water[cell as usize]);
+            count[square] += 1;
+        }
+        let stays = libm::pow((1.0 - f64::from(cx.step.snow.branch_sheds)).max(0.0), rounds);
+        let mut taken = vec![0_u32; squares];
+        for row in 0..snow.branches {
+            let catch = branch_catch(cx, row);
+            if catch.square == NEVER {
+                continue;
+            }
+            let at = row as usize;
+            #[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
+            let leaf_count = branches.leaf_count[at] as f32;
+            let axis = quat_axis_y(branches.pose[at].into());
+            let room = f64::from(branch_room(cx, catch, leaf_count, axis.y)).max(1e-3);
+            let square = catch.square as usize;
+            let caught = room * -libm::expm1(-fallen[square] * f64::from(catch.share) / room);
+            // No cell has less than it gives.
+            let most = least[square].saturating_mul(count[square]).saturating_sub(taken[square]);
+            let held = word(caught * stays).min(most);
+            self.branch_snow_mut(cx.scene).held[at] = held;
+            taken[square] += held;
+        }
+        let mut ground = self.snow_mut(cx.scene);
+        for cell in 0..cells {
+            let part = crown_part(snow, cell, taken[crown_square(snow, cell) as usize]);
+            ground.take(cell, part, fresh_depth(cx, part));
+        }
+    }
+}
+
+/// Places of the two words of a square in a round.
+fn crown_places(snow: &SnowBlock, square: u32, pool: u32) -> [usize; 2] {
+    [pool, pool + 1].map(|word| (word * crown_squares(snow) + square) as usize)
+}
