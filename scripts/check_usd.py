@@ -235,6 +235,32 @@ def check_ground(stage):
     assert len(set(heights["Water"])) == 1, "level water"
 
 
+def check_snow(stage, frames):
+    """Snow on hills, not on water: faces upwards, as deep as it is said, with an opacity that its material reads."""
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/World/Snow"))
+    primvars = UsdGeom.PrimvarsAPI(mesh)
+    deepest = 0.0
+    for frame in frames:
+        points, corners = mesh.GetPointsAttr().Get(frame), mesh.GetFaceVertexIndicesAttr().Get(frame)
+        valid, why = UsdGeom.Mesh.ValidateTopology(corners, mesh.GetFaceVertexCountsAttr().Get(frame), len(points))
+        assert valid, why
+        assert len(corners) > 3 * 1000, f"frame {frame}: {len(corners) // 3} triangles"
+        for a, b, c in zip(*[iter(corners)] * 3):
+            up = Gf.Cross(points[b] - points[a], points[c] - points[a])[1]
+            assert abs(up - 1.0 / 64.0) < 1e-5, f"frame {frame}: a triangle upwards, half a cell wide: {up}"
+        low, high = mesh.GetExtentAttr().Get(frame)
+        assert all(low[axis] - 1e-4 <= point[axis] <= high[axis] + 1e-4 for point in points for axis in range(3)), "extent"
+        for name in ("windfall:snow_depth", "displayOpacity"):
+            values = primvars.GetPrimvar(name)
+            assert values.GetInterpolation() == UsdGeom.Tokens.vertex and len(values.Get(frame)) == len(points), name
+        deepest = max(deepest, *primvars.GetPrimvar("windfall:snow_depth").Get(frame))
+        opacities = primvars.GetPrimvar("displayOpacity").Get(frame)
+        assert 0.0 <= min(opacities) and max(opacities) == 1.0, "opacity"
+    material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+    assert material, "snow has a material"
+    assert 0.02 < deepest < 2.0, f"snow of {deepest} m"
+
+
 def check(path):
     stage = Usd.Stage.Open(path + ".usda")
     found = issues(stage)
@@ -252,6 +278,7 @@ def check(path):
     check_blobs(stage, (int(stage.GetStartTimeCode()), int(stage.GetEndTimeCode())))
     check_tree(stage, stage.GetEndTimeCode())
     check_ground(stage)
+    check_snow(stage, (stage.GetStartTimeCode(), stage.GetEndTimeCode()))
     check_objects(stage, (stage.GetStartTimeCode(), stage.GetEndTimeCode()))
     camera = UsdGeom.Camera(stage.GetPrimAtPath("/World/Camera")).GetCamera(stage.GetStartTimeCode())
     assert 30.0 < camera.GetFieldOfView(Gf.Camera.FOVVertical) < 51.0, "a camera"

@@ -101,7 +101,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut exporter = export::start(format, &job)?;
     let lacks_particles = format == Format::Gltf && !scene.particles.is_empty();
     let left_out = lacks_particles.then(|| "particles are left out: glTF has no form for them".into());
-    for line in [choice.reason, note, left_out].into_iter().flatten() {
+    let keeps_snow = format == Format::Gltf && scene.weather.is_some() && frames.count() > 1;
+    let snow = keeps_snow
+        .then(|| "snow stays as it lies in the first frame: glTF has no form for a mesh that grows".into());
+    for line in [choice.reason, note, left_out, snow].into_iter().flatten() {
         terminal::note(&line);
     }
     let bar = progress::bar(frames.count().into(), "frame");

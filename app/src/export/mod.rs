@@ -16,6 +16,7 @@ mod leaf_mesh;
 mod plain;
 mod ply;
 mod range;
+mod snow_mesh;
 mod solids;
 mod space;
 mod surface;

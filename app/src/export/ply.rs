@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A folder of point clouds: a binary little-endian PLY file for every frame, a vertex for every leaf that is somewhere, and another
-//! beside it with a vertex for every living particle, and a third with the surface of those that are drawn as blobs.
+//! beside it with a vertex for every living particle, a third with the surface of those that are drawn as blobs, and one with that of the
+//! snow that lies.
 
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use windfall_core::leaf::LeafState;
 
 use super::blob_mesh::{blob_mesh, is_blobs};
+use super::snow_mesh::{SNOW, SnowMesh, cover};
 use super::{Exporter, Frame, FrameLeaf};
 use crate::files::{OutputFolder, WriteError};
 
@@ -33,6 +36,12 @@ const BLOB_FLOATS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
 /// Bytes of a slot of blobs, about: of their mesh, while they touch.
 pub(super) const BLOB_BYTES: u64 = 6_000;
+
+/// Floats of a corner of snow, in their order.
+const SNOW_FLOATS: [&str; 7] = ["x", "y", "z", "nx", "ny", "nz", "depth"];
+
+/// Bytes of a cell of snow: a corner with its colour, and two triangles.
+pub(super) const SNOW_BYTES: u64 = 4 * SNOW_FLOATS.len() as u64 + 4 + 2 * (1 + 3 * 4);
 
 /// Point clouds in the making.
 #[derive(Debug)]
@@ -69,6 +78,13 @@ impl Exporter for PlyExport {
                 out.flush()
             });
         }
+        if written.is_ok() && frame.world.compiled.scene().weather.is_some() {
+            written = File::create(path("snow")).and_then(|file| {
+                let mut out = BufWriter::new(file);
+                write_snow(&mut out, frame)?;
+                out.flush()
+            });
+        }
         Ok(written.map_err(WriteError::at(self.folder.destination()))?)
     }
 
@@ -101,6 +117,12 @@ fn declare(header: &mut String, count: usize, floats: &[&str]) {
     for float in floats {
         let _ = writeln!(header, "property float {float}");
     }
+}
+
+/// Adds the number of faces and ends a header.
+fn declare_faces(header: &mut String, count: usize) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(header, "element face {count}\nproperty list uchar uint vertex_indices\nend_header");
 }
 
 /// Writes a whole file of leaves.
@@ -154,28 +176,59 @@ fn write_blobs(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
         let _ = writeln!(header, "property uchar {color}");
     }
     let faces: usize = meshes.iter().map(|(_, mesh)| mesh.triangles.len()).sum();
-    let _ = writeln!(header, "element face {faces}\nproperty list uchar uint vertex_indices\nend_header");
+    declare_faces(&mut header, faces);
     out.write_all(header.as_bytes())?;
     for (number, mesh) in &meshes {
         let corners = mesh.positions_m.iter().zip(&mesh.normals).zip(&mesh.colors);
         for ((place, normal), color) in corners {
             let floats = place.to_array().into_iter().chain(normal.to_array());
             out.write_all(&floats.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-            let [red, green, blue] =
-                color.to_array().map(|part| (255.0 * part.clamp(0.0, 1.0)).round() as u8);
+            let [red, green, blue] = color.to_array().map(byte);
             out.write_all(&[red, green, blue, *number])?;
         }
     }
     let mut first = 0;
     for (_, mesh) in &meshes {
-        for triangle in &mesh.triangles {
-            out.write_all(&[3])?;
-            triangle.iter().try_for_each(|corner| out.write_all(&(first + corner).to_le_bytes()))?;
-        }
+        write_triangles(out, &mesh.triangles, first)?;
         first += u32::try_from(mesh.positions_m.len()).unwrap_or(u32::MAX);
     }
     Ok(())
+}
+
+/// Writes a whole file of the surface of the snow that lies.
+fn write_snow(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
+    let mesh = SnowMesh::of(frame.world);
+    let note = "reflectance is linear, of 255; alpha is the share of the ground that snow hides, of 255";
+    let mut header = head(frame, note, "", iter::empty());
+    declare(&mut header, mesh.positions_m.len(), &SNOW_FLOATS);
+    for color in ["red", "green", "blue", "alpha"] {
+        // Writing to a String cannot fail.
+        let _ = writeln!(header, "property uchar {color}");
+    }
+    declare_faces(&mut header, mesh.triangles.len());
+    out.write_all(header.as_bytes())?;
+    let [red, green, blue] = SNOW.color.map(byte);
+    for ((place, normal), depth_m) in mesh.positions_m.iter().zip(&mesh.normals).zip(&mesh.depths_m) {
+        let floats = place.iter().chain(normal).chain([depth_m]);
+        out.write_all(&floats.flat_map(|float| float.to_le_bytes()).collect::<Vec<u8>>())?;
+        out.write_all(&[red, green, blue, byte(cover(*depth_m))])?;
+    }
+    write_triangles(out, &mesh.triangles, 0)
+}
+
+/// Writes triangles whose corners begin with the number `first`.
+fn write_triangles(out: &mut impl Write, triangles: &[[u32; 3]], first: u32) -> io::Result<()> {
+    for triangle in triangles {
+        out.write_all(&[3])?;
+        triangle.iter().try_for_each(|corner| out.write_all(&(first + corner).to_le_bytes()))?;
+    }
+    Ok(())
+}
+
+/// A share as a byte.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+fn byte(share: f32) -> u8 {
+    (255.0 * share.clamp(0.0, 1.0)).round() as u8
 }
 
 /// The bytes of a leaf.

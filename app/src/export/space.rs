@@ -10,6 +10,7 @@ use windfall_core::Scene;
 use windfall_core::particle::history_runs;
 
 use super::blob_mesh::is_blobs;
+use super::snow_mesh::cell_count;
 use super::{Format, FrameRange, csv, gltf, ply, usd};
 
 /// Bytes from which a note says how much it will be.
@@ -26,6 +27,8 @@ pub(crate) struct Content {
     pub(crate) blobs: u32,
     /// Samples of ways.
     pub(crate) samples: u32,
+    /// Cells of snow.
+    pub(crate) snow: u32,
 }
 
 impl Content {
@@ -37,6 +40,7 @@ impl Content {
             particles: scene.particle_count(),
             blobs: blobs.map(|population| population.count).sum(),
             samples: history_runs(scene).iter().map(|(_, run)| run.count * run.samples).sum(),
+            snow: scene.weather.as_ref().map_or(0, cell_count),
         }
     }
 }
@@ -60,17 +64,21 @@ pub(crate) struct Estimate {
 impl Estimate {
     /// For these frames at a path.
     pub(crate) fn new(format: Format, frames: FrameRange, content: Content, path: &Path) -> Self {
-        let (leaf, particle, blob, way) = match format {
-            Format::Usd => (usd::LEAF_BYTES, usd::PARTICLE_BYTES, usd::BLOB_BYTES, usd::WAY_BYTES),
-            Format::Gltf => (gltf::LEAF_BYTES, 0, 0, 0),
-            Format::Csv => (csv::ROW_BYTES, csv::PARTICLE_BYTES, 0, 0),
-            Format::Ply => (ply::VERTEX_BYTES, ply::PARTICLE_BYTES, ply::BLOB_BYTES, 0),
+        let (leaf, particle, blob, way, snow) = match format {
+            Format::Usd => {
+                (usd::LEAF_BYTES, usd::PARTICLE_BYTES, usd::BLOB_BYTES, usd::WAY_BYTES, usd::SNOW_BYTES)
+            }
+            // Snow is in it once.
+            Format::Gltf => (gltf::LEAF_BYTES, 0, 0, 0, 0),
+            Format::Csv => (csv::ROW_BYTES, csv::PARTICLE_BYTES, 0, 0, 0),
+            Format::Ply => (ply::VERTEX_BYTES, ply::PARTICLE_BYTES, ply::BLOB_BYTES, 0, ply::SNOW_BYTES),
         };
         let rows = [
             (leaf, content.leaves),
             (particle, content.particles),
             (blob, content.blobs),
             (way, content.samples),
+            (snow, content.snow),
         ];
         let frame: u64 = rows.into_iter().map(|(bytes, count)| bytes * u64::from(count)).sum();
         Self { bytes: frame * u64::from(frames.count()), free: free(path) }
@@ -124,13 +132,15 @@ fn free(_path: &Path) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
+    use windfall_core::scene::Weather;
+
     use super::*;
 
     #[test]
     fn what_does_not_fit_is_refused_with_its_size() {
         let frames = FrameRange { first: 0, last: 9999 };
         let path = Path::new("a.csv");
-        let content = Content { leaves: 10_000, particles: 0, blobs: 0, samples: 0 };
+        let content = Content { leaves: 10_000, particles: 0, blobs: 0, samples: 0, snow: 0 };
         let mut estimate = Estimate::new(Format::Csv, frames, content, path);
         assert_eq!(estimate.bytes, 10_000 * 10_000 * csv::ROW_BYTES, "a row for each leaf and frame");
         estimate.free = Some(3_000_000_000);
@@ -141,14 +151,23 @@ mod tests {
         );
         assert!(error.contains("3.0 GB that are free") && error.contains("a.csv"), "{error}");
         let few = Estimate { bytes: 370_000, free: Some(200_000) };
-        let error = check_space(few, frames, Content { leaves: 2, particles: 9, blobs: 0, samples: 0 }, path)
-            .expect_err("too much")
-            .to_string();
+        let error = check_space(
+            few,
+            frames,
+            Content { leaves: 2, particles: 9, blobs: 0, samples: 0, snow: 0 },
+            path,
+        )
+        .expect_err("too much")
+        .to_string();
         assert!(error.contains("0.4 MB") && error.contains("0.2 MB that are free"), "{error}");
         assert!(error.contains("with 2 leaves and 9 particles takes"), "{error}");
-        let sparks = Content { leaves: 0, particles: 100, blobs: 0, samples: 0 };
+        let sparks = Content { leaves: 0, particles: 100, blobs: 0, samples: 0, snow: 0 };
         let clouds = Estimate::new(Format::Ply, frames, sparks, path);
         assert_eq!(clouds.bytes, 10_000 * 100 * ply::PARTICLE_BYTES, "a vertex for each slot and frame");
+        let snowy = Scene { weather: Some(Weather::default()), ..Scene::default() };
+        let snow = Content { leaves: 0, ..Content::of(&snowy) };
+        let meshes = Estimate::new(Format::Ply, frames, snow, path);
+        assert_eq!(meshes.bytes, 10_000 * 320 * 320 * ply::SNOW_BYTES, "40 m x 40 m of cells for each frame");
         estimate.free = Some(estimate.bytes);
         let note = check_space(estimate, frames, content, path).expect("just fits").expect("much");
         assert!(note.contains("17.0 GB for 10000 frames of 10000 leaves"), "{note}");

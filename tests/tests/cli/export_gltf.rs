@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::export::{LEAVES, PLACE, TURN, export, frame, numbers, scene, solid_scene};
 
 /// The document of a `.glb` file and its buffer.
-fn glb(path: &Path) -> (Value, Vec<u8>) {
+pub(super) fn glb(path: &Path) -> (Value, Vec<u8>) {
     let bytes = fs::read(path).expect("a file");
     let word = |at: usize| {
         let word = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
@@ -22,7 +22,7 @@ fn glb(path: &Path) -> (Value, Vec<u8>) {
 }
 
 /// The floats of an accessor.
-fn floats(document: &Value, buffer: &[u8], accessor: &Value) -> Vec<f32> {
+pub(super) fn floats(document: &Value, buffer: &[u8], accessor: &Value) -> Vec<f32> {
     let index = |value: &Value| usize::try_from(value.as_u64().expect("an index")).expect("small");
     let accessor = &document["accessors"][index(accessor)];
     assert_eq!(accessor["componentType"], 5126, "floats");

@@ -10,6 +10,7 @@ mod examples;
 mod export;
 mod export_gltf;
 mod export_particles;
+mod export_snow;
 mod flight;
 mod leaf;
 mod litter;

@@ -16,6 +16,7 @@ use super::file::{Document, node_index};
 use super::leaf_track::{Track, add_leaf, near};
 use super::movement::Movement;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
+use super::snow::add_snow;
 use super::solids::SolidTracks;
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
@@ -105,6 +106,7 @@ impl Exporter for ClipExport {
             let scene = frame.world.compiled.scene();
             view(&mut self.document, scene, self.sun, frame.world.clock.seconds());
             add_surfaces(&mut self.document, scene);
+            add_snow(&mut self.document, frame);
         }
         #[expect(clippy::cast_possible_truncation, reason = "the format has single precision")]
         let time_s = (f64::from(frame.number - self.first) / self.fps) as f32;

@@ -7,6 +7,7 @@ mod file;
 mod leaf_track;
 mod movement;
 mod scenery;
+mod snow;
 mod solids;
 mod still;
 

@@ -14,6 +14,7 @@ use windfall_render::trees::SceneTrees;
 
 use super::file::Document;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, shown, tree_mesh, view};
+use super::snow::add_snow;
 use super::solids::SolidTracks;
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
@@ -54,6 +55,7 @@ impl StillExport {
         let scene = frame.world.compiled.scene();
         view(document, scene, self.sun, frame.world.clock.seconds());
         add_surfaces(document, scene);
+        add_snow(document, frame);
         let mut kinds: Vec<Vec<&FrameLeaf>> = vec![Vec::new(); self.foliage.meshes.len()];
         for leaf in frame.leaves.iter().filter(|leaf| leaf.state != LeafState::Dormant) {
             kinds[self.foliage.shown(leaf)].push(leaf);

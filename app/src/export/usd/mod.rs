@@ -11,6 +11,7 @@ mod histories;
 mod particles;
 mod prototypes;
 mod samples;
+mod snow;
 mod solids;
 mod stage;
 mod text;
@@ -30,6 +31,7 @@ use self::blobs::BlobSamples;
 use self::histories::HistorySamples;
 use self::particles::ParticleSamples;
 use self::samples::{Handle, Samples};
+use self::snow::SnowSamples;
 use self::solids::SolidSamples;
 use self::trees::TreeSamples;
 use self::view::ViewSamples;
@@ -47,6 +49,8 @@ pub(super) const PARTICLE_BYTES: u64 = 110;
 pub(super) const WAY_BYTES: u64 = 60;
 /// Bytes of a slot of blobs in a frame, about: of their mesh, while they touch.
 pub(super) const BLOB_BYTES: u64 = 17_000;
+/// Bytes of a cell of snow in a frame, about.
+pub(super) const SNOW_BYTES: u64 = 100;
 /// Name of the layer that lists the attributes with samples.
 const MANIFEST: &str = "manifest.usda";
 /// Name of the layer of what does not move.
@@ -62,6 +66,7 @@ pub(super) struct UsdExport {
     attributes: LeafAttributes,
     particles: ParticleSamples,
     blobs: BlobSamples,
+    snow: SnowSamples,
     ways: HistorySamples,
     trees: TreeSamples,
     solids: SolidSamples,
@@ -88,6 +93,7 @@ impl UsdExport {
         let attributes = LeafAttributes::declare(&mut samples);
         let particles = ParticleSamples::declare(&mut samples, job.scene);
         let blobs = BlobSamples::declare(&mut samples, job.scene);
+        let snow = SnowSamples::declare(&mut samples, job.scene);
         let ways = HistorySamples::declare(&mut samples, job.scene);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let solids = SolidSamples::declare(&mut samples, job.solids);
@@ -116,6 +122,7 @@ impl UsdExport {
             attributes,
             particles,
             blobs,
+            snow,
             ways,
             trees,
             solids,
@@ -130,6 +137,7 @@ impl UsdExport {
         self.attributes.add(&mut self.samples, frame, &self.foliage, self.reach_m);
         self.particles.add(&mut self.samples, frame);
         self.blobs.add(&mut self.samples, frame);
+        self.snow.add(&mut self.samples, frame);
         self.ways.add(&mut self.samples, frame);
         self.trees.add(&mut self.samples, frame);
         self.solids.add(&mut self.samples, frame);

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use windfall_render::light::Daylight;
 
 use super::samples::SampleLayer;
-use super::{MANIFEST, STAGE, blobs, histories, particles, prototypes, solids, text, trees, view};
+use super::{MANIFEST, STAGE, blobs, histories, particles, prototypes, snow, solids, text, trees, view};
 use crate::export::foliage::Foliage;
 use crate::export::solids::solid_parts;
 use crate::export::surface::{self, Surface};
@@ -92,6 +92,7 @@ pub(super) fn write_stage(
     trees::write_materials(out, job.scene_trees)?;
     let surfaces = surface::surfaces(job.scene);
     surfaces.iter().try_for_each(|surface| prototypes::write_plain(out, &surface.plain))?;
+    snow::write_material(out, job.scene)?;
     let (parts, paints) = solid_parts(job.solids);
     solids::write_materials(out, &paints)?;
     writeln!(out, "}}\ndef PointInstancer \"Leaves\"\n{{")?;
@@ -102,6 +103,7 @@ pub(super) fn write_stage(
     writeln!(out, "}}")?;
     particles::write_populations(out, job.scene)?;
     blobs::write_blobs(out, job.scene)?;
+    snow::write_snow(out, job.scene)?;
     histories::write_histories(out, job.scene)?;
     trees::write_trees(out, job.scene_trees)?;
     solids::write_parts(out, &parts, &paints)?;

@@ -15,10 +15,18 @@ pub(super) fn rounded<const N: usize>(
     values: impl IntoIterator<Item = [f32; N]>,
     places: i32,
 ) {
+    vectors(out, values.into_iter().map(|value| value.map(|part| round(part, places))));
+}
+
+/// Adds an array of numbers to so many decimal places.
+pub(super) fn rounded_numbers(out: &mut String, values: impl IntoIterator<Item = f32>, places: i32) {
+    numbers(out, values.into_iter().map(|value| round(value, places)));
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "as precise as it was")]
+fn round(value: f32, places: i32) -> f32 {
     let scale = 10.0_f64.powi(places);
-    #[expect(clippy::cast_possible_truncation, reason = "as precise as it was")]
-    let round = |value: f32| ((f64::from(value) * scale).round() / scale) as f32;
-    vectors(out, values.into_iter().map(|value| value.map(round)));
+    ((f64::from(value) * scale).round() / scale) as f32
 }
 
 /// Adds an array of pairs in double precision.
@@ -126,6 +134,9 @@ mod tests {
         out.clear();
         rounded(&mut out, [[0.123_456, -7.000_04]], 3);
         assert_eq!(out, "[(0.123, -7)]", "to three places");
+        out.clear();
+        rounded_numbers(&mut out, [0.123_456, 2.0], 2);
+        assert_eq!(out, "[0.12, 2]", "to two places");
         assert_eq!(quoted("a\"b\\c\nd"), r#""a\"b\\c d""#, "escaped");
     }
 }
