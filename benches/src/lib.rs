@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use glam::{Vec2, Vec3};
 use windfall_core::scene::{
     Aerodynamics, Air, Bounds, Burning, Direction, FlightModel, Force, ForceKind, Litter, MeanSpeed, Meets,
-    ObjectFriction, ParticleRelease, ParticleShape, Particles, Plume, PlumeKey, Release, SourceShape, Species,
-    Spread, SwirlProfile, Tree, Weather,
+    ObjectFriction, ParticleRelease, ParticleShape, Particles, Plume, PlumeKey, Release, SourceShape,
+    Species, Spread, SwirlProfile, Tree, Weather,
 };
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};

@@ -3,7 +3,8 @@
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
 use windfall_core::scene::{
-    MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Tree, TreeForm, TreeKind, TreePreset,
+    MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Tree, TreeForm, TreeKind,
+    TreePreset,
 };
 use windfall_core::{Contract, SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
@@ -390,7 +391,10 @@ fn snow_on_branches_is_equal_to_the_bit() {
         held.iter().copied().map(u64::from).sum::<u64>()
     };
     let expected = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 400);
-    assert!(held(&world) > 1000 && held(&expected) != held(&world), "branches hold snow, and catch more or lose it");
+    assert!(
+        held(&world) > 1000 && held(&expected) != held(&world),
+        "branches hold snow, and catch more or lose it"
+    );
     let bent = (world.branches.pose.iter().zip(&expected.branches.pose)).filter(|(a, b)| a != b).count();
     assert!(bent > world.branches.pose.len() / 2, "{bent} segments have moved");
     for threads in [1, 3, 16] {
@@ -401,7 +405,11 @@ fn snow_on_branches_is_equal_to_the_bit() {
     let course = Course::new(world, &[40, 160]);
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
     let edits = [
-        ("kernels/step_branch_snow", "crown_word(catch_by.square, pool));", "crown_word(catch_by.square, pool + 1u));"),
+        (
+            "kernels/step_branch_snow",
+            "crown_word(catch_by.square, pool));",
+            "crown_word(catch_by.square, pool + 1u));",
+        ),
         ("kernels/step_branch_snow", "after.given", "0u - after.given"),
         ("kernels/step_snow", "2u - crown_pool", "crown_pool"),
         ("tree/branch_snow", "1.0 - axis_y * axis_y", "axis_y * axis_y"),

@@ -98,7 +98,8 @@ fn air_passes_through_what_is_open() {
     let near = behind(&fence, 2.0, 0.3);
     assert!((near - 1.0 / 3.0).abs() < 0.03 && behind(&wall, 2.0, 0.3) < 0.02, "right behind: {near}");
     assert!(behind(&netting, 2.0, 0.3) > 0.8, "netting hardly shelters");
-    let foot: Vec<f64> = [0.05, 0.25, 0.6, 1.2].iter().map(|heights| behind(&fence, -heights, 0.01)).collect();
+    let foot: Vec<f64> =
+        [0.05, 0.25, 0.6, 1.2].iter().map(|heights| behind(&fence, -heights, 0.01)).collect();
     assert!(foot.iter().all(|share| *share > 0.6) && behind(&wall, -0.6, 0.01) < 0.0, "before: {foot:.3?}");
 }
 

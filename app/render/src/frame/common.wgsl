@@ -20,6 +20,8 @@ override HAS_ROOF: bool = true;
 override HAS_OBJECTS: bool = true;
 // Number of fires that light the scene.
 override FIRE_LIGHTS: u32 = 0u;
+// Without snow nothing is wet of it.
+override HAS_SNOW: bool = false;
 
 // The grid points around a place, lowest (xy) and highest (zw), and where between them it lies.
 struct Cell {

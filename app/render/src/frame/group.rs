@@ -20,6 +20,8 @@ pub(crate) struct Standing {
     pub(crate) objects: bool,
     /// Number of fires that light it.
     pub(crate) fire_lights: u32,
+    /// True if snow may lie on it.
+    pub(crate) snow: bool,
 }
 
 /// The frame's uniform buffer and bind group.
@@ -98,14 +100,15 @@ impl FrameGroup {
     }
 
     /// Values of the overrides of every module that binds the group.
-    pub(crate) fn overrides(&self) -> [(&'static str, f64); 4] {
+    pub(crate) fn overrides(&self) -> [(&'static str, f64); 5] {
         let of = |is: bool| f64::from(u8::from(is));
-        let Standing { trees, objects, fire_lights } = self.standing;
+        let Standing { trees, objects, fire_lights, snow } = self.standing;
         [
             ("IS_HILLY", of(self.is_hilly)),
             ("HAS_ROOF", of(trees || objects)),
             ("HAS_OBJECTS", of(objects)),
             ("FIRE_LIGHTS", fire_lights.into()),
+            ("HAS_SNOW", of(snow)),
         ]
     }
 

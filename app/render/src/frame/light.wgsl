@@ -11,6 +11,8 @@
 @group(1) @binding(3) var clamp_sampler: sampler;
 @group(1) @binding(4) var noise: texture_2d<f32>;
 @group(1) @binding(5) var repeat_sampler: sampler;
+// Top view of the rectangle on which snow lies: ground that melted snow has soaked.
+@group(1) @binding(6) var wet_map: texture_2d<f32>;
 // Radiance by latitude and longitude.
 @group(1) @binding(7) var sky_map: texture_2d<f32>;
 @group(1) @binding(8) var sky_sampler: sampler;
@@ -72,6 +74,23 @@ fn tree_shade(position: vec3<f32>) -> vec2<f32> {
 fn sky_openness(position: vec3<f32>) -> f32 {
     let uv = (position.xz - frame.park_center_m.xz) / PARK_RADIUS_M * 0.5 + 0.5;
     return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
+}
+
+// Share to which melted snow has soaked the ground at a place; beyond the rectangle as at its edge.
+fn wetness(at: vec2<f32>) -> f32 {
+    if !HAS_SNOW {
+        return 0.0;
+    }
+    return textureSampleLevel(wet_map, clamp_sampler, (at - frame.wet_corner_m) * frame.wet_per_m, 0.0).r;
+}
+
+// Share of the light from within a wet matt surface that its film of water mirrors back into it.
+const FILM: f32 = 0.45;
+
+// Reflectance of a matt surface of which a share is wet: light goes back and forth beneath the film (Lekner and Dorf, 1988).
+fn wet_reflectance(dry: vec3<f32>, wet: f32) -> vec3<f32> {
+    let back = FILM * wet;
+    return dry * (1.0 - back) / (1.0 - back * dry);
 }
 
 // Radius around a place within which the sky is sampled, in metres, and number of samples.

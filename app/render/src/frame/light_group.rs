@@ -14,8 +14,8 @@ use crate::light::{Daylight, prefiltered};
 pub(crate) struct LightGroup {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
-    /// Shadow maps, shade map and noise.
-    views: [(u32, wgpu::TextureView); 3],
+    /// Shadow maps, shade map, noise and wet map.
+    views: [(u32, wgpu::TextureView); 4],
     skies: [wgpu::TextureView; 2],
     /// Lights of fires.
     pub(crate) fires: wgpu::Buffer,
@@ -27,7 +27,7 @@ impl LightGroup {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         shadow_maps: &wgpu::TextureView,
-        shade_map: &wgpu::TextureView,
+        [shade_map, wet_map]: [&wgpu::TextureView; 2],
         daylight: &Daylight,
     ) -> Self {
         let flat = wgpu::TextureViewDimension::D2;
@@ -40,6 +40,7 @@ impl LightGroup {
                 sampler_entry(3, wgpu::SamplerBindingType::Filtering),
                 texture_entry(4, FILTERABLE, flat),
                 sampler_entry(5, wgpu::SamplerBindingType::Filtering),
+                texture_entry(6, FILTERABLE, flat),
                 texture_entry(7, FILTERABLE, flat),
                 sampler_entry(8, wgpu::SamplerBindingType::Filtering),
                 texture_entry(9, FILTERABLE, flat),
@@ -62,7 +63,8 @@ impl LightGroup {
             (5, device.create_sampler(&repeating)),
             (8, device.create_sampler(&around)),
         ];
-        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise_view(device, queue))];
+        let noise = noise_view(device, queue);
+        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise), (6, wet_map.clone())];
         let skies = skies(device, queue, daylight);
         let fires = fire_light::buffer(device);
         let group = bind(device, &layout, (&views, &fires), &samplers, &skies);

@@ -33,6 +33,8 @@ struct Varyings {
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
 const ROUGHNESS: vec2<f32> = vec2(0.42, 0.62);
 const WAX: f32 = 0.04;
+// Roughness of a leaf with a film of water on it: set by eye.
+const WET_ROUGHNESS: f32 = 0.28;
 // Share that an uneven sheet mirrors at a slant, set by eye; the rest it mirrors onto itself.
 const SLANTED: f32 = 0.25;
 // Chance that light which leaves a leaf of a crown meets another one (recollision probability of Smolander and Stenberg,
@@ -164,7 +166,9 @@ fn fragment(in: Varyings) -> Painted {
         let pale = mix(reflectance, vec3(luminance(reflectance)) * vec3(1.08, 1.05, 0.92), 0.25) * 1.12 + 0.008;
         reflectance = pale;
     }
-    reflectance = min(reflectance, vec3(0.8));
+    // Melted snow soaks what lies: darker, and a film of water on it mirrors as smoothly as wax.
+    let wet = wetness(in.world.xz) * in.settled;
+    reflectance = wet_reflectance(min(reflectance, vec3(0.8)), wet);
     var wax = 1.0;
     if LEAVES_BURN {
         reflectance = burnt_reflectance(tissue, reflectance);
@@ -176,9 +180,9 @@ fn fragment(in: Varyings) -> Painted {
     let light = frame.sun_direction;
     let sun = frame.sun_color * in.sunlit * leaf_shadow(in.world + light * 0.035);
     let facing = dot(normal, light);
-    let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
+    let roughness = mix(select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0), WET_ROUGHNESS, wet);
     var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));
-    color += sun * PI * gloss(sheet, to_eye, light, roughness) * mix(1.0, 0.35, in.settled) * wax;
+    color += sun * PI * gloss(sheet, to_eye, light, roughness) * mix(1.0, 0.35, in.settled * (1.0 - wet)) * wax;
 
     let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
     let ambient = ambient_light_on(normal);

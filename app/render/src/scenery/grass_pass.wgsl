@@ -68,6 +68,8 @@ fn vertex(
     var albedo = ground.rgb * mix(0.75, 1.35, own);
     // Some blades are dry.
     albedo = mix(albedo, vec3(0.34, 0.27, 0.11), step(0.86 - 0.25 * ground.a, own) * 0.7);
+    // Water runs off blades; the dead ones among them soak.
+    albedo = wet_reflectance(albedo, 0.5 * wetness(at));
     let light = frame.sun_direction;
     let view = to_eye / distance_m;
     let normal = normalize(vec3(lean.x - hill.y, 0.9, lean.y - hill.z));

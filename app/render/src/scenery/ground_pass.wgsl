@@ -72,6 +72,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let speck = mix(smoothstep(0.12, 0.20, grain.z), 0.55, smoothstep(18.0, 45.0, distance_m));
     let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), grain.y * 1.2 + 0.4);
     albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved));
+    albedo = wet_reflectance(albedo, wetness(at));
 
     // Snow beyond the rectangle on which it is simulated, and what shows of the ground within it.
     let snowy = smoothstep(0.25, 1.0, frame.snow_depth_m / (0.006 + 0.024 * (grain.y + 0.5)));

@@ -8,6 +8,7 @@ pub(crate) mod sky_pass;
 pub(crate) mod snow_pass;
 mod terrain_mesh;
 pub(crate) mod water_pass;
+pub(crate) mod wet_map;
 
 use windfall_core::layout::WgslStruct;
 
@@ -22,7 +23,7 @@ pub(crate) fn shaders() -> Shaders {
         declarations(lists) + &grass_pass::GrassCell::declaration() + &snow_pass::SnowUniform::declaration(),
     )]);
     shaders.extend(wgsl_files!(
-        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass"
+        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass", "wet_map"
     ));
     shaders
 }

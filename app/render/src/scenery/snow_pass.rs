@@ -5,7 +5,9 @@
 use windfall_core::CompiledScene;
 use windfall_core::blocks::SceneBlock;
 use windfall_core::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
-use windfall_core::device::terrain::snow::{SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_STEP_M, SNOW_WORDS};
+use windfall_core::device::terrain::snow::{
+    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_MELTED, SNOW_STEP_M, SNOW_WATER_MM, SNOW_WORDS,
+};
 use windfall_core::shared_struct;
 use windfall_wgpu::BedColumn;
 
@@ -16,9 +18,12 @@ use crate::gpu::pipeline::{buffer_entry, uniform_entry};
 use crate::gpu::shaders::compile;
 use crate::gpu::upload;
 
+/// Melted snow in mm of water that soaks the ground: set by eye.
+const SOAKED_MM: f32 = 1.0;
+
 shared_struct! {
     /// Grids of snow and litter, and where their words are in the buffer of the bed.
-    pub(crate) struct SnowUniform, padding 4 {
+    pub(crate) struct SnowUniform, padding 12 {
         /// Cells of snow along x and z.
         snow_cells: [u32; 2],
         /// Numbers of the first column and line from the origin on.
@@ -31,6 +36,8 @@ shared_struct! {
         bed_word: u32,
         /// First word of the snow in it.
         snow_word: u32,
+        /// First word of what has melted of it.
+        melted_word: u32,
         /// Cells of snow and of litter per metre.
         cells_per_m: f32,
         /// Metres per unit of the depth of snow.
@@ -41,6 +48,8 @@ shared_struct! {
         step_m: f32,
         /// Edge of a cell in metres.
         cell_m: f32,
+        /// Share of a soaked ground per unit of water that has melted.
+        soaked_per_unit: f32,
     }
 }
 
@@ -50,7 +59,8 @@ pub(crate) struct SnowPass {
     compiled: CompiledScene,
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
-    uniform: wgpu::Buffer,
+    /// The grids.
+    pub(crate) uniform: wgpu::Buffer,
     lies_on: wgpu::Buffer,
     group: Option<wgpu::BindGroup>,
     cells: u32,
@@ -169,11 +179,13 @@ fn uniform_of(block: &SceneBlock, bed_word: u32) -> SnowUniform {
         litter_first: [first(litter.first_column), first(litter.first_line)],
         bed_word,
         snow_word: bed_word + snow.first_word,
+        melted_word: bed_word + snow.first_word + SNOW_MELTED * snow.columns * snow.lines,
         cells_per_m: SNOW_CELLS_PER_M,
         depth_unit_m: SNOW_DEPTH_M,
         litter_unit_m: LITTER_UNIT_M,
         step_m: SNOW_STEP_M,
         cell_m: 1.0 / SNOW_CELLS_PER_M,
+        soaked_per_unit: SNOW_WATER_MM / SOAKED_MM,
         ..bytemuck::Zeroable::zeroed()
     }
 }

@@ -94,7 +94,7 @@ fn marks_tell_what_leaves_do() {
     ]);
     let buffers = StoreBuffers::new(&gpu, &Leaves::zeroed(5)).expect("they fit");
     let ground = Ground { height_m: 1.0, ..Ground::default() };
-    let standing = Standing { trees: false, objects: false, fire_lights: 0 };
+    let standing = Standing { trees: false, objects: false, fire_lights: 0, snow: false };
     let frame = FrameGroup::new(gpu.device(), gpu.queue(), &Land::of(&ground), standing);
     let first = Paint { measure: Measure::Motion, most: 1.0 };
     let mut paint = PaintPass::new(gpu.device(), &frame, first, 5, 0.01, 0.0);

@@ -71,3 +71,42 @@ fn snow_stands_as_high_as_it_is_deep() {
     let seen = super::differing(&level, &bench.draw_snow(&heap));
     assert!((100..4000).contains(&seen), "{seen} pixels differ");
 }
+
+/// A bed without snow, in some cells of which, by column and line, so much has melted in mm of water.
+fn melted(world: &World, mm: f32, is_there: impl Fn(u32, u32) -> bool) -> Vec<u32> {
+    let mut bed = world.bed.clone();
+    let block = world.compiled.block();
+    for (number, melted) in (0..).zip(bed.snow_mut(block).melted) {
+        if is_there(number % block.snow.columns, number / block.snow.columns) {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some mm")]
+            let units = (4096.0 * mm) as u32;
+            *melted = units;
+        }
+    }
+    bed.words
+}
+
+#[test]
+fn ground_is_darker_where_snow_has_melted() {
+    let (mut bench, world) = snowy();
+    let mut left = |mm| halves(&bench.draw_snow(&melted(&world, mm, |_, _| true)))[0];
+    let [dry, damp, wet, soaked] = [0.0, 0.4, 1.0, 20.0].map(&mut left);
+    println!("dry {dry}, damp {damp}, wet {wet}, soaked {soaked}");
+    assert!(wet + 1.0 < damp && damp + 1.0 < dry, "{dry}, {damp}, {wet}");
+    assert!((0.6..0.9).contains(&(wet / dry)), "as bright to the eye as wet ground is: {wet} of {dry}");
+    assert!((wet - soaked).abs() < 0.1, "no wetter than wet: {wet}, {soaked}");
+}
+
+#[test]
+fn ground_is_wet_only_where_snow_has_melted() {
+    let (mut bench, world) = snowy();
+    let dry = bench.draw_snow(&melted(&world, 0.0, |_, _| true));
+    // Columns from x = -8 m to -1.5 m, and lines from z = -8 m to 0 m, which are above the middle of the picture.
+    let wet = bench.draw_snow(&melted(&world, 5.0, |column, line| column < 52 && line < 64));
+    let places = dry.enumerate_pixels().zip(wet.pixels()).filter(|((_, _, a), b)| a != b);
+    let places: Vec<_> = places.map(|((x, y, _), _)| (x, y)).collect();
+    println!("{} pixels differ", places.len());
+    assert!((300..4000).contains(&places.len()), "{} pixels differ", places.len());
+    let (right, low) = places.iter().fold((0, 0), |(right, low), (x, y)| (right.max(*x), low.max(*y)));
+    assert!(right < SIZE.0 / 2 && low < SIZE.1 / 2 + 6, "up to {right}, {low}");
+}

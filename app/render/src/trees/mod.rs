@@ -81,8 +81,7 @@ pub struct SceneTrees {
 /// Area of the wood of each segment of a tree, as seen from above when it lies level, and of the leaves of the full crown on it.
 fn snow_areas_m2(tree: &Planted) -> Vec<f32> {
     let segments = tree.skeleton.segments.iter();
-    let wood =
-        |one: &Segment| one.start_m.distance(one.end_m) * (one.start_radius_m + one.end_radius_m);
+    let wood = |one: &Segment| one.start_m.distance(one.end_m) * (one.start_radius_m + one.end_radius_m);
     let mut areas_m2: Vec<f32> = segments.map(wood).collect();
     for leaf in tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf) {
         #[expect(clippy::cast_possible_truncation, reason = "a few digits")]
