@@ -171,7 +171,7 @@ pub fn attracting(count: u32) -> Scene {
     scene
 }
 
-/// The fire of branches at dusk, with so many sparks a second that meet things as told.
+/// The fire of branches at dusk, with so many sparks a second, and their contacts with things.
 ///
 /// # Panics
 /// If the preset has no sparks.

@@ -186,7 +186,7 @@ crate::shared_struct! {
         pub flake_water: u32,
         /// Segments of trees, on which snow lies; 0 where none of them is above the cells.
         pub branches: u32,
-        /// First row of what they catch it with.
+        /// First row of the areas with which they catch it.
         pub first_branch_row: u32,
         /// Zeros; fill the block up to 16 bytes.
         pub unused: u32,

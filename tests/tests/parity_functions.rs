@@ -291,7 +291,12 @@ fn a_changed_twin_is_noticed() {
         ("wind/plume", "passing * (along * across)", "passing * (along * along)", "wind_plume"),
         ("wind/plume", "* inverse_cube * PLUME_ABOVE_K", "* PLUME_ABOVE_K", "plume_warmth"),
         ("wind/plume", "bitcast<f32>(words.z)", "bitcast<f32>(words.y)", "plume_warmth"),
-        ("tree/branch_snow", "(line % CROWN_CELLS) * width", "(line % CROWN_CELLS) * high", "crown_part"),
+        (
+            "tree/branch_snow",
+            "units + (line % CROWN_CELLS)",
+            "units + 1u + (line % CROWN_CELLS)",
+            "crown_part",
+        ),
         ("tree/branch_snow", "held - shed + caught", "held - shed", "branch_round"),
         ("terrain/snow", "inner + u32(inner == 0u)", "inner + u32(inner == 4u)", "snow_cell"),
         ("terrain/snow", "column + kind - 2u", "column + kind - 1u", "snow_pair"),

@@ -407,8 +407,8 @@ fn snow_on_branches_is_equal_to_the_bit() {
     let edits = [
         (
             "kernels/step_branch_snow",
-            "crown_word(catch_by.square, pool));",
-            "crown_word(catch_by.square, pool + 1u));",
+            "crown_word(catch_by.square, pool)]",
+            "crown_word(catch_by.square, pool + 1u)]",
         ),
         ("kernels/step_branch_snow", "after.given", "0u - after.given"),
         ("kernels/step_snow", "2u - crown_pool", "crown_pool"),

@@ -153,7 +153,7 @@ pub(super) fn snow_block(
     (snow, rows)
 }
 
-/// What the segments of a forest catch snow with (see [`branch_catch`](crate::device::tree::branch_snow::branch_catch)), row by row; nothing if
+/// Areas with which the segments of a forest catch snow (see [`branch_catch`](crate::device::tree::branch_snow::branch_catch)), row by row; nothing if
 /// none of them is above the snow.
 fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
     let mut catches =

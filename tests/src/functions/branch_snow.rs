@@ -19,7 +19,7 @@ fn of_most(units: u32) -> f32 {
     units as f32 * 2.5e-6
 }
 
-/// What a segment catches snow with, by the words from one on.
+/// Areas with which a segment catches snow, by the words from one on.
 fn catch(w: &[u32], at: usize) -> BranchCatch {
     BranchCatch { square: 0, share: float(w[at]), wood_m2: float(w[at + 1]), leaf_m2: float(w[at + 2]) }
 }

@@ -36,7 +36,7 @@ crate::shared_constants! {
     pub const STREAM_BRANCH: u32 = 0x8000_0003;
 }
 
-/// What a segment catches snow with.
+/// Areas with which a segment catches snow.
 #[derive(Clone, Copy, Debug)]
 pub struct BranchCatch {
     /// Its square of the crowns; [`NEVER`](crate::blocks::NEVER) if there is none beneath it.
@@ -117,7 +117,7 @@ pub fn flake_is_caught(cx: &Context<'_>, x: f32, z: f32, open: f32) -> bool {
     open <= unit_float(word)
 }
 
-/// What the segment in a row catches snow with. Only where snow lies on branches.
+/// Areas with which the segment in a row catches snow. Only where snow lies on branches.
 #[inline(always)]
 pub fn branch_catch(cx: &Context<'_>, row: u32) -> BranchCatch {
     let Uint4([square, share, wood_m2, leaf_m2]) = cx.tables[(cx.scene.snow.first_branch_row + row) as usize];
