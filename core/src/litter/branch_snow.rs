@@ -135,44 +135,68 @@ impl Bed {
         if snow.branches == 0 || mm <= 0.0 {
             return;
         }
-        let squares = crown_squares(snow) as usize;
-        let units = f64::from(mm) / f64::from(SNOW_WATER_MM);
-        let mut fallen = vec![0.0_f64; squares];
-        let mut least = vec![u32::MAX; squares];
-        let mut count = vec![0_u32; squares];
         let cells = snow.columns * snow.lines;
+        let covered = |cell: u32| f64::from((1.0 - lies_on(cx, cell)[1]).clamp(0.0, 1.0));
+        let units = f64::from(mm) / f64::from(SNOW_WATER_MM);
+        let mut fallen = vec![0.0_f64; crown_squares(snow) as usize];
         for cell in 0..cells {
-            let square = crown_square(snow, cell) as usize;
-            fallen[square] += units * f64::from((1.0 - lies_on(cx, cell)[1]).clamp(0.0, 1.0));
-            least[square] = least[square].min(self.snow(cx.scene).water[cell as usize]);
-            count[square] += 1;
+            fallen[crown_square(snow, cell) as usize] += units * covered(cell);
         }
         let stays = libm::pow((1.0 - f64::from(cx.step.snow.branch_sheds)).max(0.0), rounds);
-        let mut taken = vec![0_u32; squares];
-        for row in 0..snow.branches {
-            let catch = branch_catch(cx, row);
-            if catch.square == NEVER {
-                continue;
-            }
-            let at = row as usize;
+        let catches: Vec<_> = (0..snow.branches).map(|row| branch_catch(cx, row)).collect();
+        let mut sums = vec![0.0_f64; fallen.len()];
+        let mut caught = vec![0.0_f64; catches.len()];
+        for (at, catch) in catches.iter().enumerate().filter(|(_, catch)| catch.square != NEVER) {
             #[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
             let leaf_count = branches.leaf_count[at] as f32;
             let axis = quat_axis_y(branches.pose[at].into());
-            let room = f64::from(branch_room(cx, catch, leaf_count, axis.y)).max(1e-3);
+            let room = f64::from(branch_room(cx, *catch, leaf_count, axis.y)).max(1e-3);
             let square = catch.square as usize;
-            let caught = room * -libm::expm1(-fallen[square] * f64::from(catch.share) / room);
-            // No cell has less than it gives.
-            let most = least[square].saturating_mul(count[square]).saturating_sub(taken[square]);
-            let held = word(caught * stays).min(most);
-            self.branch_snow_mut(cx.scene).held[at] = held;
-            taken[square] += held;
+            caught[at] = room * -libm::expm1(-fallen[square] * f64::from(catch.share) / room);
+            sums[square] += caught[at];
         }
+        // What cells give changes evenly from square to square, so that no seams show.
+        let shares: Vec<f64> = sums.iter().zip(&fallen).map(|(sum, fallen)| sum / fallen.max(1.0)).collect();
+        let mut given = vec![0_u32; fallen.len()];
         let mut ground = self.snow_mut(cx.scene);
         for cell in 0..cells {
-            let part = crown_part(snow, cell, taken[crown_square(snow, cell) as usize]);
-            ground.take(cell, part, fresh_depth(cx, part));
+            let square = crown_square(snow, cell) as usize;
+            if sums[square] > 0.0 && covered(cell) > 0.0 {
+                let share = stays * covered(cell) * between_squares(snow, &shares, cell).min(1.0);
+                let part = word(units * share).min(ground.water[cell as usize]);
+                ground.take(cell, part, fresh_depth(cx, part));
+                given[square] += part;
+            }
+        }
+        let held = self.branch_snow_mut(cx.scene).held;
+        let mut left = given.clone();
+        for (at, catch) in catches.iter().enumerate().filter(|(_, catch)| catch.square != NEVER) {
+            let square = catch.square as usize;
+            let share = caught[at] / sums[square].max(1e-9);
+            held[at] = word(f64::from(given[square]) * share).min(left[square]);
+            left[square] -= held[at];
+        }
+        // Rounded down, parts leave a few units.
+        for (at, catch) in catches.iter().enumerate().filter(|(_, catch)| catch.square != NEVER) {
+            held[at] += std::mem::take(&mut left[catch.square as usize]);
         }
     }
+}
+
+/// Number at the middle of a cell, by those of the squares: it changes evenly between their middles.
+fn between_squares(snow: &SnowBlock, of_squares: &[f64], cell: u32) -> f64 {
+    let place = |number: u32, count: u32| {
+        let last = f64::from(count.div_ceil(CROWN_CELLS) - 1);
+        let at = ((f64::from(number) + 0.5) / f64::from(CROWN_CELLS) - 0.5).clamp(0.0, last);
+        let before = libm::floor(at).min((last - 1.0).max(0.0));
+        (word(before), at - before, word((before + 1.0).min(last)))
+    };
+    let (west, x, east) = place(cell % snow.columns, snow.columns);
+    let (north, z, south) = place(cell / snow.columns, snow.lines);
+    let of = |column: u32, line: u32| of_squares[(line * crown_columns(snow) + column) as usize];
+    let near = of(west, north) + x * (of(east, north) - of(west, north));
+    let far = of(west, south) + x * (of(east, south) - of(west, south));
+    near + z * (far - near)
 }
 
 /// Places of the two words of a square in a round.
