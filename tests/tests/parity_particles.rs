@@ -405,13 +405,10 @@ fn snow_on_branches_is_equal_to_the_bit() {
     let course = Course::new(world, &[40, 160]);
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
     let edits = [
-        (
-            "kernels/step_branch_snow",
-            "crown_word(catch_by.square, pool)]",
-            "crown_word(catch_by.square, pool + 1u)]",
-        ),
+        ("kernels/step_branch_snow", "crown_word(square, pool)]", "crown_word(square, pool + 1u)]"),
         ("kernels/step_branch_snow", "after.given", "0u - after.given"),
-        ("kernels/step_snow", "2u - crown_pool", "crown_pool"),
+        ("kernels/step_snow", "CROWN_POOL - crown_pool", "crown_pool"),
+        ("tree/branch_snow", "words.x % CROWN_CELLS", "words.y % CROWN_CELLS"),
         ("tree/branch_snow", "1.0 - axis_y * axis_y", "axis_y * axis_y"),
         ("tree/branch_snow", "open <= unit_float", "open > unit_float"),
         ("tree/branch_snow", "[place & 3u]) * SNOW_UNIT_KG", "[place & 3u]) * SNOW_UNIT_KG * 1.1"),

@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/step_branch_snow.wgsl
 //!
-//! Lets branches take what has come down over them in a round, and lose what falls from them.
+//! Adds up the areas above each square, and lets branches take what has come down over them in a round, and lose what falls from them.
 
 use windfall_core::Context;
 use windfall_core::device::terrain::snow::{SNOW_AGES, snow_turn};
+use windfall_core::device::tree::branch_snow::CROWN_TURN;
 use windfall_core::litter::Bed;
 use windfall_core::tree::Branches;
 
 /// Takes the snow of all branches through a step: few, and once a round.
 pub(crate) fn step_branch_snow(cx: &Context<'_>, branches: &Branches, bed: &mut Bed) {
-    if snow_turn(cx.step.index) == SNOW_AGES {
-        bed.step_branch_snow(cx, branches);
+    match snow_turn(cx.step.index) {
+        CROWN_TURN => bed.add_branches(cx),
+        SNOW_AGES => bed.step_branch_snow(cx, branches),
+        _ => {}
     }
 }

@@ -5,6 +5,7 @@
 use windfall_core::blocks::NEVER;
 use windfall_core::device::particle::record::POPULATION_SNOW;
 use windfall_core::device::terrain::snow::{SNOW_AGES, snow_turn};
+use windfall_core::device::tree::branch_snow::CROWN_TURN;
 use windfall_core::particle::ParticleRun;
 
 use super::WgpuSimulator;
@@ -61,7 +62,7 @@ impl WgpuSimulator {
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
         let branches = self.compiled.block().snow.branches;
-        if snow_turn(index) == SNOW_AGES
+        if matches!(snow_turn(index), CROWN_TURN | SNOW_AGES)
             && branches != 0
             && let Some(forest) = &self.forest
         {

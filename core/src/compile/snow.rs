@@ -11,7 +11,7 @@ use crate::device::terrain::snow::{
     DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_WATER_MM,
     snow_cell,
 };
-use crate::device::tree::branch_snow::{BranchCatch, SNOW_UNIT_KG, crown_square, crown_squares};
+use crate::device::tree::branch_snow::{CROWN_UNITS_M2, SNOW_UNIT_KG};
 use crate::device::wind::profile::profile_factor;
 use crate::layout::Uint4;
 use crate::litter::Bed;
@@ -156,9 +156,8 @@ pub(super) fn snow_block(
 /// Areas with which the segments of a forest catch snow (see [`branch_catch`](crate::device::tree::branch_snow::branch_catch)), row by row; nothing if
 /// none of them is above the snow.
 fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
-    let mut catches =
-        vec![BranchCatch { square: NEVER, share: 0.0, wood_m2: 0.0, leaf_m2: 0.0 }; forest.len()];
-    let mut areas_m2 = vec![0.0_f64; forest.len()];
+    let mut rows = vec![Uint4([NEVER, 0, 0, 0]); forest.len()];
+    let mut is_any = false;
     for tree in forest.trees() {
         let mut leaves = vec![0.0_f64; tree.skeleton.segments.len()];
         for leaf in tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf) {
@@ -172,30 +171,19 @@ fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
             }
             let along = (segment.end_m - segment.start_m).as_dvec3();
             let up = along.normalize_or_zero().y;
-            let level = 1.0 - up * up;
             let wood_m2 = along.length() * f64::from(segment.start_radius_m + segment.end_radius_m);
-            catches[row as usize] = BranchCatch {
-                square: crown_square(snow, cell),
-                share: 0.0,
-                wood_m2: single(wood_m2),
-                leaf_m2: single(tree.facts.leaf_m2),
-            };
-            areas_m2[row as usize] = wood_m2 * level + tree.facts.leaf_m2 * leaves;
+            let area_m2 = wood_m2 * (1.0 - up * up) + tree.facts.leaf_m2 * leaves;
+            let area = word(area_m2 * f64::from(CROWN_UNITS_M2));
+            let [wood_m2, leaf_m2] = [wood_m2, tree.facts.leaf_m2].map(|area_m2| single(area_m2).to_bits());
+            rows[row as usize] = Uint4([cell, area, wood_m2, leaf_m2]);
+            is_any = true;
         }
     }
-    let mut sums_m2 = vec![0.0; crown_squares(snow) as usize];
-    let caught = || catches.iter().zip(&areas_m2).filter(|(catch, _)| catch.square != NEVER);
-    if caught().next().is_none() {
+    if !is_any {
         return Vec::new();
     }
-    caught().for_each(|(catch, area_m2)| sums_m2[catch.square as usize] += area_m2);
     snow.branches = len32(forest.len());
-    let rows = catches.iter().zip(&areas_m2).map(|(catch, area_m2)| {
-        let sum_m2 = if catch.square == NEVER { 0.0 } else { sums_m2[catch.square as usize] };
-        let share = if sum_m2 > 0.0 { area_m2 / sum_m2 } else { 0.0 };
-        Uint4([catch.square, single(share).to_bits(), catch.wood_m2.to_bits(), catch.leaf_m2.to_bits()])
-    });
-    rows.collect()
+    rows
 }
 
 /// First of the cells that a rectangle covers along one axis, two's complement, and their number.

@@ -10,8 +10,8 @@ use crate::context::Context;
 use crate::convert::word;
 use crate::device::terrain::snow::{SNOW_WATER_MM, SNOW_WORDS, fresh_depth, snow_cell};
 use crate::device::tree::branch_snow::{
-    CROWN_CELLS, CROWN_WORDS, branch_catch, branch_room, branch_round, crown_columns, crown_part, crown_pool,
-    crown_square, crown_squares, flake_is_caught,
+    CROWN_CELLS, CROWN_POOL, CROWN_WORDS, branch_catch, branch_offer, branch_room, branch_round, crown_cell,
+    crown_columns, crown_part, crown_pool, crown_square, crown_squares, flake_is_caught,
 };
 use crate::tree::Branches;
 use crate::tree::forest::first_three;
@@ -71,29 +71,40 @@ impl Bed {
             return;
         }
         let snow = &cx.scene.snow;
-        let [fresh, left] = crown_places(snow, crown_square(snow, cell), crown_pool(cx.step.index));
+        let [fresh, left, _] = crown_places(cx, cell);
         let crowns = self.branch_snow_mut(cx.scene).crowns;
         for place in [fresh, left] {
             crowns[place] = crowns[place].wrapping_add(snow.flake_water);
         }
     }
 
+    /// Adds up the areas of the segments over each square, in the middle of a round.
+    pub fn add_branches(&mut self, cx: &Context<'_>) {
+        let crowns = self.branch_snow_mut(cx.scene).crowns;
+        for catch in (0..cx.scene.snow.branches).map(|row| branch_catch(cx, row)) {
+            if catch.cell != NEVER {
+                let [.., area] = crown_places(cx, catch.cell);
+                crowns[area] = crowns[area].wrapping_add(catch.area);
+            }
+        }
+    }
+
     /// Lets the segments of all trees take, in the last exchange of a round, what has come down over their squares, and lose what falls from them.
     pub fn step_branch_snow(&mut self, cx: &Context<'_>, branches: &Branches) {
-        let snow = &cx.scene.snow;
         let BranchSnowMut { held, crowns } = self.branch_snow_mut(cx.scene);
         for (row, held) in (0..).zip(held) {
             let catch = branch_catch(cx, row);
-            if catch.square == NEVER {
+            if catch.cell == NEVER {
                 continue;
             }
-            let [fresh, left] = crown_places(snow, catch.square, crown_pool(cx.step.index));
+            let [fresh, left, area] = crown_places(cx, catch.cell);
             let at = row as usize;
             let spin: Vec3 = first_three(branches.spin[at]);
             #[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
             let leaf_count = branches.leaf_count[at] as f32;
             let room = branch_room(cx, catch, leaf_count, quat_axis_y(branches.pose[at].into()).y);
-            let after = branch_round(cx, row, catch, room, *held, crowns[fresh], vec3_dot(spin, spin));
+            let offered = branch_offer(catch, crowns[fresh], crowns[area]);
+            let after = branch_round(cx, row, room, *held, offered, vec3_dot(spin, spin));
             *held = after.held;
             crowns[left] = crowns[left].wrapping_add(after.given);
         }
@@ -108,13 +119,14 @@ impl Bed {
         let (mut cells, words) = self.all_snow_mut(cx.scene);
         let first = snow.branches + (crown_pool(cx.step.index) + 1) * crown_squares(snow);
         let left = &words[first as usize..][..crown_squares(snow) as usize];
-        for (square, &units) in (0..).zip(left).filter(|(_, units)| **units != 0) {
-            let (column, line) = (square % crown_columns(snow), square / crown_columns(snow));
-            for line in (line * CROWN_CELLS..snow.lines).take(CROWN_CELLS as usize) {
-                for column in (column * CROWN_CELLS..snow.columns).take(CROWN_CELLS as usize) {
-                    let cell = line * snow.columns + column;
-                    cells.fall(cx, cell, crown_part(snow, cell, units));
-                }
+        if left.iter().all(|units| *units == 0) {
+            return;
+        }
+        for cell in 0..snow.columns * snow.lines {
+            let shifted = crown_cell(cx, cell);
+            let units = left[crown_square(snow, shifted) as usize];
+            if units != 0 {
+                cells.fall(cx, cell, crown_part(snow, shifted, units));
             }
         }
     }
@@ -123,8 +135,8 @@ impl Bed {
     pub fn clear_crowns(&mut self, cx: &Context<'_>) {
         if cx.scene.snow.branches != 0 {
             let squares = crown_squares(&cx.scene.snow) as usize;
-            let first = (2 - crown_pool(cx.step.index)) as usize * squares;
-            self.branch_snow_mut(cx.scene).crowns[first..][..2 * squares].fill(0);
+            let first = (CROWN_POOL - crown_pool(cx.step.index)) as usize * squares;
+            self.branch_snow_mut(cx.scene).crowns[first..][..CROWN_POOL as usize * squares].fill(0);
         }
     }
 
@@ -144,15 +156,21 @@ impl Bed {
         }
         let stays = libm::pow((1.0 - f64::from(cx.step.snow.branch_sheds)).max(0.0), rounds);
         let catches: Vec<_> = (0..snow.branches).map(|row| branch_catch(cx, row)).collect();
+        let over = || catches.iter().enumerate().filter(|(_, catch)| catch.cell != NEVER);
+        let mut areas = vec![0.0_f64; fallen.len()];
+        for (_, catch) in over() {
+            areas[crown_square(snow, catch.cell) as usize] += f64::from(catch.area);
+        }
         let mut sums = vec![0.0_f64; fallen.len()];
         let mut caught = vec![0.0_f64; catches.len()];
-        for (at, catch) in catches.iter().enumerate().filter(|(_, catch)| catch.square != NEVER) {
+        for (at, catch) in over() {
             #[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
             let leaf_count = branches.leaf_count[at] as f32;
             let axis = quat_axis_y(branches.pose[at].into());
             let room = f64::from(branch_room(cx, *catch, leaf_count, axis.y)).max(1e-3);
-            let square = catch.square as usize;
-            caught[at] = room * -libm::expm1(-fallen[square] * f64::from(catch.share) / room);
+            let square = crown_square(snow, catch.cell) as usize;
+            let fallen = fallen[square] * f64::from(catch.area) / areas[square].max(1.0);
+            caught[at] = room * -libm::expm1(-fallen / room);
             sums[square] += caught[at];
         }
         // What cells give changes evenly from square to square, so that no seams show.
@@ -170,15 +188,15 @@ impl Bed {
         }
         let held = self.branch_snow_mut(cx.scene).held;
         let mut left = given.clone();
-        for (at, catch) in catches.iter().enumerate().filter(|(_, catch)| catch.square != NEVER) {
-            let square = catch.square as usize;
+        for (at, catch) in over() {
+            let square = crown_square(snow, catch.cell) as usize;
             let share = caught[at] / sums[square].max(1e-9);
             held[at] = word(f64::from(given[square]) * share).min(left[square]);
             left[square] -= held[at];
         }
         // Rounded down, parts leave a few units.
-        for (at, catch) in catches.iter().enumerate().filter(|(_, catch)| catch.square != NEVER) {
-            held[at] += std::mem::take(&mut left[catch.square as usize]);
+        for (at, catch) in over() {
+            held[at] += std::mem::take(&mut left[crown_square(snow, catch.cell) as usize]);
         }
     }
 }
@@ -199,7 +217,9 @@ fn between_squares(snow: &SnowBlock, of_squares: &[f64], cell: u32) -> f64 {
     near + z * (far - near)
 }
 
-/// Places of the two words of a square in a round.
-fn crown_places(snow: &SnowBlock, square: u32, pool: u32) -> [usize; 2] {
-    [pool, pool + 1].map(|word| (word * crown_squares(snow) + square) as usize)
+/// Places of the words of the square over a cell in a round.
+fn crown_places(cx: &Context<'_>, cell: u32) -> [usize; CROWN_POOL as usize] {
+    let snow = &cx.scene.snow;
+    let (square, pool) = (crown_square(snow, crown_cell(cx, cell)), crown_pool(cx.step.index));
+    std::array::from_fn(|word| (pool as usize + word) * crown_squares(snow) as usize + square as usize)
 }

@@ -16,6 +16,7 @@ use crate::device::terrain::snow::{
     SnowCell, drifted_depth, flake_cell, flake_share, fresh_depth, snow_age, snow_cell, snow_center,
     snow_drift, snow_drifts, snow_pair, snow_slide, snow_turn,
 };
+use crate::device::tree::branch_snow::CROWN_TURN;
 use crate::device::wind::shelter::wind_shelter;
 use crate::layout::Uint4;
 use crate::particle::{ParticlePlace, ParticleStore};
@@ -288,6 +289,9 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, fl
     let turn = snow_turn(cx.step.index);
     if turn == 0 {
         bed.clear_crowns(cx);
+    }
+    if turn == CROWN_TURN {
+        bed.add_branches(cx);
     }
     if turn == SNOW_AGES {
         bed.step_branch_snow(cx, branches);

@@ -4,7 +4,7 @@
 
 use glam::{Vec2, Vec3};
 use windfall_core::device::terrain::snow::{SNOW_AGES, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM};
-use windfall_core::device::tree::branch_snow::{SNOW_UNIT_KG, branch_catch};
+use windfall_core::device::tree::branch_snow::{CROWN_TURN, SNOW_UNIT_KG, branch_catch};
 use windfall_core::litter::{flakes_of, has_landed, lies_on};
 use windfall_core::scene::{Foliage, Scene, Tree, TreeForm, TreeKind, TreePreset};
 use windfall_core::{Clock, Simulator, World};
@@ -51,7 +51,9 @@ fn snow_down(world: &mut World, fallen_mm: f64, rounds: u32) {
             world.bed.land_flake(&compiled.context(&step), at(0.754_877_666_2), at(0.569_840_291_0));
             number += 1;
         }
-        step.index += SNOW_INTERVAL * SNOW_AGES;
+        step.index += SNOW_INTERVAL * CROWN_TURN;
+        world.bed.add_branches(&compiled.context(&step));
+        step.index += SNOW_INTERVAL * (SNOW_AGES - CROWN_TURN);
         let cx = compiled.context(&step);
         world.bed.step_branch_snow(&cx, &world.branches);
         world.bed.fall_through_crowns(&cx);
@@ -75,6 +77,10 @@ fn crowns_hold_what_the_law_of_interception_says() {
         // The law, square metre by square metre.
         let cx = world.compiled.context(&start);
         let squares = (block.snow.columns / 8 * (block.snow.lines / 8)) as usize;
+        let square_of = |cell: u32| {
+            let (column, line) = (cell % block.snow.columns, cell / block.snow.columns);
+            (line / 8 * (block.snow.columns / 8) + column / 8) as usize
+        };
         let (mut room_kg, mut covered_m2) = (vec![0.0; squares], vec![0.0; squares]);
         for row in 0..block.snow.branches {
             let catch = branch_catch(&cx, row);
@@ -82,13 +88,11 @@ fn crowns_hold_what_the_law_of_interception_says() {
             let area_m2 = f64::from(catch.wood_m2 * (1.0 - axis.y * axis.y))
                 + f64::from(catch.leaf_m2) * f64::from(world.branches.leaf_count[row as usize]);
             let fresh_kg_m3 = 62.0 + 25.0 * (-10.0_f64 / 2.6).exp();
-            room_kg[catch.square as usize] += 5.9 * (0.27 + 46.0 / fresh_kg_m3) * area_m2;
+            room_kg[square_of(catch.cell)] += 5.9 * (0.27 + 46.0 / fresh_kg_m3) * area_m2;
         }
         for cell in 0..cells {
             let [_, open] = lies_on(&cx, cell);
-            let (column, line) = (cell % block.snow.columns, cell / block.snow.columns);
-            let square = line / 8 * (block.snow.columns / 8) + column / 8;
-            covered_m2[square as usize] += f64::from(1.0 - open) / 64.0;
+            covered_m2[square_of(cell)] += f64::from(1.0 - open) / 64.0;
         }
         let law: f64 = (room_kg.iter().zip(&covered_m2))
             .filter(|(room_kg, _)| **room_kg > 0.0)

@@ -43,7 +43,7 @@ fn land_flakes(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     if (flake_is_caught(place.position.x, place.position.z, open)) {
-        let square = crown_square(middle);
+        let square = crown_square(crown_cell(middle));
         let pool = crown_pool(step_block.index);
         let bed = scene.litter.first_row * 4u;
         atomicAdd(&table_words[bed + crown_word(square, pool)], water);

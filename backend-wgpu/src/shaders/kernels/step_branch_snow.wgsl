@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/step_branch_snow.rs
-// Lets branches take what has come down over them in a round, and lose what falls from them.
+// Adds up the areas above each square, and lets branches take what has come down over them in a round, and lose what falls from them.
 #import arith/quaternion
 #import arith/vector
 #import tree/bindings
@@ -14,7 +14,7 @@ fn catch_of(row: u32) -> BranchCatch {
     let first = (scene.snow.first_branch_row + row) * 4u;
     return BranchCatch(
         atomicLoad(&table_words[first]),
-        bitcast<f32>(atomicLoad(&table_words[first + 1u])),
+        atomicLoad(&table_words[first + 1u]),
         bitcast<f32>(atomicLoad(&table_words[first + 2u])),
         bitcast<f32>(atomicLoad(&table_words[first + 3u])),
     );
@@ -27,17 +27,25 @@ fn step_branch_snow(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let catch_by = catch_of(row);
-    if (catch_by.square == NEVER) {
+    if (catch_by.cell == NEVER) {
         return;
     }
     let bed = scene.litter.first_row * 4u;
-    let place = bed + scene.snow.first_word + SNOW_WORDS * (scene.snow.columns * scene.snow.lines) + row;
+    let square = crown_square(crown_cell(catch_by.cell));
     let pool = crown_pool(step_block.index);
-    let fresh = atomicLoad(&table_words[bed + crown_word(catch_by.square, pool)]);
+    let area = bed + crown_word(square, pool + 2u);
+    if (snow_turn(step_block.index) == CROWN_TURN) {
+        atomicAdd(&table_words[area], catch_by.area);
+        return;
+    }
+    let place = bed + scene.snow.first_word + SNOW_WORDS * (scene.snow.columns * scene.snow.lines) + row;
+    let fresh = atomicLoad(&table_words[bed + crown_word(square, pool)]);
     let spin = branch_rows[BRANCH_SPIN * level.column_stride + row].xyz;
     let axis = quat_axis_y(branch_rows[BRANCH_POSE * level.column_stride + row]);
     let room = branch_room(catch_by, f32(leaf_counts[row]), axis.y);
-    let after = branch_round(row, catch_by, room, atomicLoad(&table_words[place]), fresh, vec3_dot(spin, spin));
+    let held = atomicLoad(&table_words[place]);
+    let offered = branch_offer(catch_by, fresh, atomicLoad(&table_words[area]));
+    let after = branch_round(row, room, held, offered, vec3_dot(spin, spin));
     atomicStore(&table_words[place], after.held);
-    atomicAdd(&table_words[bed + crown_word(catch_by.square, pool + 1u)], after.given);
+    atomicAdd(&table_words[bed + crown_word(square, pool + 1u)], after.given);
 }

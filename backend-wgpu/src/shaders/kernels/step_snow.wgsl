@@ -50,15 +50,17 @@ fn clear_crown(cell: u32) {
         return;
     }
     let square = crown_square(cell);
-    let pool = 2u - crown_pool(step_block.index);
+    let pool = CROWN_POOL - crown_pool(step_block.index);
     let bed = scene.litter.first_row * 4u;
-    snow_words[bed + crown_word(square, pool)] = 0u;
-    snow_words[bed + crown_word(square, pool + 1u)] = 0u;
+    for (var word = 0u; word < CROWN_POOL; word++) {
+        snow_words[bed + crown_word(square, pool + word)] = 0u;
+    }
 }
 
 fn fall_through_crown(cell: u32, open: f32) {
-    let left = crown_word(crown_square(cell), crown_pool(step_block.index) + 1u);
-    let part = crown_part(cell, snow_words[scene.litter.first_row * 4u + left]);
+    let shifted = crown_cell(cell);
+    let left = crown_word(crown_square(shifted), crown_pool(step_block.index) + 1u);
+    let part = crown_part(shifted, snow_words[scene.litter.first_row * 4u + left]);
     snow_words[snow_word(SNOW_LANDED, cell)] += part;
     if (open < 0.0) {
         snow_words[snow_word(SNOW_MELTED, cell)] += part;

@@ -8,8 +8,8 @@
 #import terrain/snow
 
 struct BranchCatch {
-    square: u32,
-    share: f32,
+    cell: u32,
+    area: u32,
     wood_m2: f32,
     leaf_m2: f32,
 }
@@ -25,6 +25,13 @@ fn crown_columns() -> u32 {
 
 fn crown_squares() -> u32 {
     return crown_columns() * ((scene.snow.lines + (CROWN_CELLS - 1u)) / CROWN_CELLS);
+}
+
+fn crown_cell(cell: u32) -> u32 {
+    let words = philox(scene.seed, vec4<u32>(crown_round(step_block.index), STREAM_SHIFT, 0u, 0u));
+    let column = (cell % scene.snow.columns + words.x % CROWN_CELLS) % scene.snow.columns;
+    let line = (cell / scene.snow.columns + words.y % CROWN_CELLS) % scene.snow.lines;
+    return line * scene.snow.columns + column;
 }
 
 fn crown_square(cell: u32) -> u32 {
@@ -43,8 +50,12 @@ fn crown_part(cell: u32, units: u32) -> u32 {
     return (units + (line % CROWN_CELLS) * width + column % CROWN_CELLS) / (width * high);
 }
 
+fn crown_round(step: u32) -> u32 {
+    return (step + (SNOW_INTERVAL - 1u)) / (SNOW_INTERVAL * SNOW_TURNS);
+}
+
 fn crown_pool(step: u32) -> u32 {
-    return 2u * (((step + (SNOW_INTERVAL - 1u)) / (SNOW_INTERVAL * SNOW_TURNS)) & 1u);
+    return CROWN_POOL * (crown_round(step) & 1u);
 }
 
 fn crown_word(square: u32, word: u32) -> u32 {
@@ -62,7 +73,7 @@ fn flake_is_caught(x: f32, z: f32, open: f32) -> bool {
 
 fn branch_catch(row: u32) -> BranchCatch {
     let words = tables[scene.snow.first_branch_row + row];
-    return BranchCatch(words.x, bitcast<f32>(words.y), bitcast<f32>(words.z), bitcast<f32>(words.w));
+    return BranchCatch(words.x, words.y, bitcast<f32>(words.z), bitcast<f32>(words.w));
 }
 
 fn branch_room(catch_by: BranchCatch, leaf_count: f32, axis_y: f32) -> f32 {
@@ -70,17 +81,21 @@ fn branch_room(catch_by: BranchCatch, leaf_count: f32, axis_y: f32) -> f32 {
     return step_block.snow.branch_units_m2 * (catch_by.wood_m2 * level_share + catch_by.leaf_m2 * leaf_count);
 }
 
+fn branch_offer(catch_by: BranchCatch, fresh: u32, area: u32) -> f32 {
+    let part = f32(catch_by.area) * reciprocal(f32(max(area, 1u)));
+    return f32(fresh) * (part * CROWN_TAKEN);
+}
+
 fn branch_round(
     row: u32,
-    catch_by: BranchCatch,
     room: f32,
     held: u32,
-    fresh: u32,
+    offered: f32,
     spin_squared: f32,
 ) -> BranchRound {
     let before = f32(held);
     let free = max(1.0 - before * reciprocal(max(room, 1.0)), 0.0);
-    let caught = min(u32(floor(f32(fresh) * (catch_by.share * free))), fresh);
+    let caught = u32(floor(offered * free));
     var share = step_block.snow.branch_sheds;
     if (SHAKING_SQUARED < spin_squared) {
         share += SHAKEN_SHARE;

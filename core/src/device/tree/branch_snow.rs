@@ -5,7 +5,8 @@
 //! Snow on the branches of trees.
 //!
 //! # Model
-//! Flakes that come down beneath a crown are caught over a square of 8 x 8 cells first. Once a round each segment whose middle is above the square takes its share of
+//! Flakes that come down beneath a crown are caught over a square of 8 x 8 cells first, of a grid that is shifted at random from round to round, so that no edges of
+//! squares show. Once a round each segment whose middle is above the square takes its share of
 //! that, by how much of the square's leaves and wood it has, and the less the more it bears already: `dI = (I* - I)(1 - exp(-C P/I*))` in small steps
 //! (Hedstrom and Pomeroy 1998), C being the share of the sky that crowns cover. I* grows with the area of leaves and twigs, and falls for wood that stands
 //! steep. What is above I*, because a branch has bent down or has lost leaves, slides off; a share falls as warmth and wind have it (Roesch et al. 2001),
@@ -22,8 +23,16 @@ use crate::layout::Uint4;
 crate::shared_constants! {
     /// Cells along the edge of a square of the crowns.
     pub const CROWN_CELLS: u32 = 8;
-    /// Words of a square: what has come down over it in this round and in the next, and what of that is left to fall on.
-    pub const CROWN_WORDS: u32 = 4;
+    /// Words of a square: what has come down over it in a round, what of that is left to fall on, and the area above it that catches; of this round and of the next.
+    pub const CROWN_WORDS: u32 = 6;
+    /// Words of a square in one round.
+    pub const CROWN_POOL: u32 = 3;
+    /// Turn in which the areas above the squares are added up.
+    pub const CROWN_TURN: u32 = 4;
+    /// Units of that area in a m².
+    pub const CROWN_UNITS_M2: f32 = 65_536.0;
+    /// Share of the water over a square that segments take at most, so that rounding never gives more than there is.
+    pub const CROWN_TAKEN: f32 = 0.999_99;
     /// Kilograms of a unit of water: 1/4096 mm over a cell.
     pub const SNOW_UNIT_KG: f32 = 1.0 / 262_144.0;
     /// Squared angular velocity in rad²/s² from which on a branch shakes snow off: assumed.
@@ -34,15 +43,17 @@ crate::shared_constants! {
     pub const STREAM_CROWN: u32 = 0x8000_0002;
     /// Random words of snow that falls from branches.
     pub const STREAM_BRANCH: u32 = 0x8000_0003;
+    /// Random words of the shift of the squares.
+    pub const STREAM_SHIFT: u32 = 0x8000_0004;
 }
 
 /// Areas with which a segment catches snow.
 #[derive(Clone, Copy, Debug)]
 pub struct BranchCatch {
-    /// Its square of the crowns; [`NEVER`](crate::blocks::NEVER) if there is none beneath it.
-    pub square: u32,
-    /// Its share of the leaves and wood over the square.
-    pub share: f32,
+    /// Cell beneath its middle; [`NEVER`](crate::blocks::NEVER) if there is none.
+    pub cell: u32,
+    /// Units of area by which it shares in what comes down, with all its leaves.
+    pub area: u32,
     /// Area of its wood as seen from above when it lies level, in m².
     pub wood_m2: f32,
     /// Area in m² of one of its leaves with all that it stands for.
@@ -70,7 +81,17 @@ pub fn crown_squares(snow: &SnowBlock) -> u32 {
     crown_columns(snow) * snow.lines.div_ceil(CROWN_CELLS)
 }
 
-/// Square over a cell.
+/// Number of a cell in the grid of the squares of a round, shifted around the edges.
+#[inline(always)]
+pub fn crown_cell(cx: &Context<'_>, cell: u32) -> u32 {
+    let snow = &cx.scene.snow;
+    let [x, z, ..] = philox(cx.scene.seed, [crown_round(cx.step.index), STREAM_SHIFT, 0, 0]);
+    let column = (cell % snow.columns + x % CROWN_CELLS) % snow.columns;
+    let line = (cell / snow.columns + z % CROWN_CELLS) % snow.lines;
+    line * snow.columns + column
+}
+
+/// Square over a cell of its grid.
 #[inline(always)]
 pub fn crown_square(snow: &SnowBlock, cell: u32) -> u32 {
     (cell / snow.columns / CROWN_CELLS) * crown_columns(snow) + (cell % snow.columns) / CROWN_CELLS
@@ -91,10 +112,16 @@ pub fn crown_part(snow: &SnowBlock, cell: u32, units: u32) -> u32 {
     (units + (line % CROWN_CELLS) * width + column % CROWN_CELLS) / (width * high)
 }
 
-/// First of the two words of the squares into which the flakes of a step go: those that crowns have caught by the last exchange of a round wait no longer.
+/// Number of the round to which the flakes of a step belong: those that crowns have caught by its last exchange wait no longer.
+#[inline(always)]
+pub fn crown_round(step: u32) -> u32 {
+    (step + (SNOW_INTERVAL - 1)) / (SNOW_INTERVAL * SNOW_TURNS)
+}
+
+/// First of the words of the squares in a step.
 #[inline(always)]
 pub fn crown_pool(step: u32) -> u32 {
-    2 * (((step + (SNOW_INTERVAL - 1)) / (SNOW_INTERVAL * SNOW_TURNS)) & 1)
+    CROWN_POOL * (crown_round(step) & 1)
 }
 
 /// Place among the words of the litter of one of the words of a square.
@@ -120,13 +147,8 @@ pub fn flake_is_caught(cx: &Context<'_>, x: f32, z: f32, open: f32) -> bool {
 /// Areas with which the segment in a row catches snow. Only where snow lies on branches.
 #[inline(always)]
 pub fn branch_catch(cx: &Context<'_>, row: u32) -> BranchCatch {
-    let Uint4([square, share, wood_m2, leaf_m2]) = cx.tables[(cx.scene.snow.first_branch_row + row) as usize];
-    BranchCatch {
-        square,
-        share: f32::from_bits(share),
-        wood_m2: f32::from_bits(wood_m2),
-        leaf_m2: f32::from_bits(leaf_m2),
-    }
+    let Uint4([cell, area, wood_m2, leaf_m2]) = cx.tables[(cx.scene.snow.first_branch_row + row) as usize];
+    BranchCatch { cell, area, wood_m2: f32::from_bits(wood_m2), leaf_m2: f32::from_bits(leaf_m2) }
 }
 
 /// Units of water that a segment bears at most, whose axis has a vertical component and on which so many leaves hang.
@@ -136,20 +158,26 @@ pub fn branch_room(cx: &Context<'_>, catch: BranchCatch, leaf_count: f32, axis_y
     cx.step.snow.branch_units_m2 * (catch.wood_m2 * level + catch.leaf_m2 * leaf_count)
 }
 
-/// Snow of the segment in a row after a round in which so much has come down over its square.
+/// Units of water that a segment may take of what has come down over its square, above which is so much area.
+#[inline(always)]
+pub fn branch_offer(catch: BranchCatch, fresh: u32, area: u32) -> f32 {
+    let part = catch.area.to_real() * reciprocal(area.max(1).to_real());
+    fresh.to_real() * (part * CROWN_TAKEN)
+}
+
+/// Snow of the segment in a row after a round in which it may take so much.
 #[inline(always)]
 pub fn branch_round(
     cx: &Context<'_>,
     row: u32,
-    catch: BranchCatch,
     room: f32,
     held: u32,
-    fresh: u32,
+    offered: f32,
     spin_squared: f32,
 ) -> BranchRound {
     let before = held.to_real();
     let free = (1.0 - before * reciprocal(room.max(1.0))).max(0.0);
-    let caught = (fresh.to_real() * (catch.share * free)).floor().to_whole().min(fresh);
+    let caught = (offered * free).floor().to_whole();
     let mut share = cx.step.snow.branch_sheds;
     if SHAKING_SQUARED < spin_squared {
         share += SHAKEN_SHARE;
