@@ -21,9 +21,6 @@ use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleRows, Parti
 use super::branch_block::{Column, vector_and_fourth};
 use super::leaf_block::select_four;
 
-/// Height in m above all ground and solid things.
-const FAR_ABOVE_M: f32 = 1e6;
-
 /// Slots of one population that follow one another, none of them born in the step.
 pub(crate) struct ParticleBlock<'a> {
     /// Slot of the first of them.
@@ -159,11 +156,8 @@ impl ParticleBlock<'_> {
                 carried_flight(frame, particle_fly(cx, population, inside, [air_a, air_b], mutual))
             }
         };
-        // Those that do not fly are tested far above everything, where no list has to be gone through for them.
-        let far = P::fill(simd, FAR_ABOVE_M);
-        let from = Vec3::new(position.x, flies.select_real(position.y, far), position.z);
-        let to = Vec3::new(end.position.x, flies.select_real(end.position.y, far), end.position.z);
-        let ends = may_be_struck(cx, population, from, to) | is_outside(population, end.position);
+        let ends =
+            may_be_struck(cx, population, position, end.position) | is_outside(population, end.position);
         let moved = flies & !ends;
         // Nothing holds what flies. Those that are left lose their marks here as they would there.
         let new_bits = P::from_bits(moved.select(unmarked & !PARTICLE_GROUNDED, unmarked));
