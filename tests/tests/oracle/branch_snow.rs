@@ -94,13 +94,18 @@ fn crowns_hold_what_the_law_of_interception_says() {
             let [_, open] = lies_on(&cx, cell);
             covered_m2[square_of(cell)] += f64::from(1.0 - open) / 64.0;
         }
-        let law: f64 = (room_kg.iter().zip(&covered_m2))
+        // Squares that are shifted share what falls with their neighbours: more than each by itself, less than one for all.
+        let caught =
+            |room_kg: f64, covered_m2: f64| room_kg * (1.0 - (-covered_m2 * fallen_mm / room_kg).exp());
+        let apart: f64 = (room_kg.iter().zip(&covered_m2))
             .filter(|(room_kg, _)| **room_kg > 0.0)
-            .map(|(room_kg, covered_m2)| room_kg * (1.0 - (-covered_m2 * fallen_mm / room_kg).exp()))
+            .map(|(room_kg, covered_m2)| caught(*room_kg, *covered_m2))
             .sum();
+        let as_one = caught(room_kg.iter().sum(), covered_m2.iter().sum());
+        println!("{held_kg:.1} kg; by the law {apart:.1} to {as_one:.1} kg");
         assert!(
-            (held_kg - law).abs() < 0.03 * law,
-            "LAI {leaf_area_index}, {fallen_mm} mm: {held_kg} kg for {law}"
+            as_one < 1.25 * apart && (0.98 * apart..1.02 * as_one).contains(&held_kg),
+            "LAI {leaf_area_index}, {fallen_mm} mm: {held_kg} kg for {apart} to {as_one}"
         );
         let below: f64 = covered_m2.iter().sum::<f64>() * fallen_mm;
         let share = held_kg / below;
@@ -152,17 +157,11 @@ fn no_water_is_lost_in_crowns() {
     assert!(most_held > fallen / 20 && most_falling > 0.0, "much is caught: {most_held} of {fallen}");
 }
 
-/// Height in m of the end of the limb that reaches farthest from the trunk.
-fn tip_m(world: &World) -> f32 {
-    let ends =
-        (world.compiled.forest().segments().iter().zip(&world.branches.base).zip(&world.branches.pose)).map(
-            |((segment, base), pose)| {
-                Vec3::new(base[0], base[1], base[2])
-                    + glam::Quat::from_array(*pose) * (Vec3::Y * segment.length)
-            },
-        );
-    ends.max_by(|a, b| Vec2::new(a.x, a.z).length().total_cmp(&Vec2::new(b.x, b.z).length()))
-        .map_or(0.0, |end| end.y)
+/// Place of the end of the segment in a row.
+fn end_m(world: &World, row: usize) -> Vec3 {
+    let [x, y, z, _] = world.branches.base[row];
+    let length = world.compiled.forest().segments()[row].length;
+    Vec3::new(x, y, z) + glam::Quat::from_array(world.branches.pose[row]) * (Vec3::Y * length)
 }
 
 /// Limbs sink beneath snow, the deeper the more of it they bear, and lose much of it in the thaw, when they rise again.
@@ -173,6 +172,12 @@ fn snow_bends_limbs_until_it_falls() {
         scene.particles[0].count = 1;
         scene.weather.as_mut().expect("stated").snow_mm_h = vec![(0.0, 0.0)];
         let mut world = World::build(&scene).expect("valid");
+        // That reaches farthest from the trunk at rest.
+        let far = |row: &usize| {
+            let end = end_m(&world, *row);
+            Vec2::new(end.x, end.z).length()
+        };
+        let tip = (0..world.branches.base.len()).max_by(|a, b| far(a).total_cmp(&far(b))).expect("segments");
         if fallen_mm > 0.0 {
             let block = *world.compiled.block();
             let start = world.compiled.step_block(&world.clock);
@@ -190,15 +195,15 @@ fn snow_bends_limbs_until_it_falls() {
         cpu.step((seconds / scene.dt_s) as u32).expect("the CPU steps");
         cpu.read_state(&mut world).expect("the same world");
         let after = sum(world.bed.branch_snow(world.compiled.block()));
-        (tip_m(&world), after as f64 / (before.max(1)) as f64)
+        (end_m(&world, tip).y, after as f64 / (before.max(1)) as f64)
     };
     let (bare_m, _) = settled(0.0, -10.0, 20.0);
-    let (light_m, kept) = settled(0.5, -10.0, 20.0);
-    let (heavy_m, _) = settled(2.0, -10.0, 20.0);
+    let (light_m, kept) = settled(0.2, -10.0, 20.0);
+    let (heavy_m, _) = settled(0.6, -10.0, 20.0);
     println!("{bare_m} {light_m} {heavy_m} {kept}");
     assert!(kept > 0.95, "in frost and calm it stays: {kept}");
     let (little_m, much_m) = (bare_m - light_m, bare_m - heavy_m);
-    assert!(little_m > 0.005 && much_m > 2.5 * little_m, "they sink by {little_m} and {much_m} m");
+    assert!(little_m > 0.02 && much_m > 1.8 * little_m, "they sink by {little_m} and {much_m} m");
     let (_, kept) = settled(2.0, 6.0, 600.0);
     // (6 + 3) / 1.87e5 per second (Roesch et al. 2001).
     let expected = (-600.0 * 9.0 / 1.87e5_f64).exp();

@@ -288,7 +288,8 @@ fn walls_have_caps() {
 #[test]
 fn snow_melts_later_under_crowns() {
     let mut scene = snowy(0.0, 8.0, 24.0, 100);
-    scene.weather.as_mut().expect("stated").lying_mm = 10.0;
+    // Much of it lies on the tree.
+    scene.weather.as_mut().expect("stated").lying_mm = 60.0;
     scene.trees = vec![Tree { kind: "oak".into(), leaves: 4000, ..Tree::default() }];
     let mut world = World::build(&scene).expect("valid");
     let compiled = world.compiled.clone();
