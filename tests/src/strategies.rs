@@ -276,7 +276,6 @@ pub fn obstructed_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Sc
     scene.objects = vec![
         Object {
             heading_deg: 20.0,
-            open: 0.4,
             ..solid(ObjectShape::Box { size_m: Vec3::new(1.6, 0.45, 1.2) }, 0.5, 0.225, 0.3)
         },
         Object {

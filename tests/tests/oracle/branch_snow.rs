@@ -47,6 +47,7 @@ fn snow_down(world: &mut World, fallen_mm: f64, rounds: u32) {
         step.index = round * SNOW_INTERVAL * SNOW_TURNS;
         while f64::from(number) < flakes * f64::from(round + 1) / f64::from(rounds) {
             // Places of low discrepancy (the additive sequence of the plastic number).
+            #[expect(clippy::cast_possible_truncation, reason = "a place on the square")]
             let at = |share: f64| ((f64::from(number) * share).fract() as f32 - 0.5) * EDGE_M;
             world.bed.land_flake(&compiled.context(&step), at(0.754_877_666_2), at(0.569_840_291_0));
             number += 1;
@@ -140,6 +141,7 @@ fn no_water_is_lost_in_crowns() {
         let stats = state.snow_stats().expect("there is snow");
         let (snow, held) = (state.bed.snow(block), sum(state.bed.branch_snow(block)));
         let in_air = f64::from(stats.flakes) * f64::from(block.snow.flake_water);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "units of water")]
         let in_crowns = (stats.falling_kg / f64::from(SNOW_UNIT_KG) - in_air).round() as u64;
         assert_eq!(
             sum(snow.landed) + held + in_crowns,
@@ -187,12 +189,16 @@ fn snow_bends_limbs_until_it_falls() {
             for (row, held) in (0..).zip(held) {
                 let catch = branch_catch(&cx, row);
                 let leaf_m2 = catch.leaf_m2 * world.branches.leaf_count[row as usize] as f32;
-                *held = (f64::from(leaf_m2) * fallen_mm / f64::from(SNOW_UNIT_KG)) as u32;
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "units of water")]
+                let units = (f64::from(leaf_m2) * fallen_mm / f64::from(SNOW_UNIT_KG)) as u32;
+                *held = units;
             }
         }
         let before = sum(world.bed.branch_snow(world.compiled.block()));
         let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
-        cpu.step((seconds / scene.dt_s) as u32).expect("the CPU steps");
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some thousand steps")]
+        let steps = (seconds / scene.dt_s) as u32;
+        cpu.step(steps).expect("the CPU steps");
         cpu.read_state(&mut world).expect("the same world");
         let after = sum(world.bed.branch_snow(world.compiled.block()));
         (end_m(&world, tip).y, after as f64 / (before.max(1)) as f64)
