@@ -7,9 +7,8 @@ use std::time::{Duration, Instant};
 
 use glam::{Vec2, Vec3};
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, Burning, Direction, FlightModel, Force, ForceKind, Litter, MeanSpeed, Meets,
-    ObjectFriction, ParticleRelease, ParticleShape, Particles, Plume, PlumeKey, Release, SourceShape,
-    Species, Spread, SwirlProfile, Tree, Weather,
+    Aerodynamics, Air, Direction, FlightModel, Force, ForceKind, Litter, MeanSpeed, Meets, ObjectFriction,
+    ParticleRelease, ParticleShape, Particles, Release, SourceShape, Species, Spread, SwirlProfile, Tree,
 };
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -168,83 +167,6 @@ pub fn attracting(count: u32) -> Scene {
         meets: Meets::Nothing,
         ..Particles::default()
     }];
-    scene
-}
-
-/// The fire of branches at dusk, with so many sparks a second, and their contacts with things.
-///
-/// # Panics
-/// If the preset has no sparks.
-pub fn bonfire(per_s: f32, meets: Meets) -> Scene {
-    let mut scene = Scene::preset("bonfire").expect("a preset");
-    let sparks = scene.particles.iter_mut().find(|one| one.name == "sparks").expect("it has sparks");
-    sparks.release = ParticleRelease::Rate { per_s, from_s: -4.5 };
-    sparks.meets = meets;
-    // Each lives for at most four and a half seconds.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
-    let count = (4.6 * per_s) as u32;
-    sparks.count = count.max(8);
-    scene
-}
-
-/// About so many dry leaves that lie three layers deep and burn, lit by a line of plumes.
-pub fn burning(leaves: u32) -> Scene {
-    let mut scene = littered(leaves, 1.0, 0.3);
-    let species = &mut scene.species[0];
-    species.burns = Some(Burning::default());
-    species.flight = FlightModel::Aerodynamic(Aerodynamics { moisture: 0.05, ..Aerodynamics::default() });
-    #[expect(clippy::cast_precision_loss, reason = "a few significant digits")]
-    let edge_m = (leaves as f32 * 0.002_83 / 3.0).sqrt();
-    scene.ground.litter =
-        Some(Litter { size_m: Vec2::splat(edge_m + 2.0), leaf_area_index: 3.0, ..Litter::default() });
-    scene.wind.plumes = [-0.3f32, -0.1, 0.1, 0.3]
-        .into_iter()
-        .zip(["one", "two", "three", "four"])
-        .map(|(share, name)| Plume {
-            name: name.into(),
-            at_m: Vec3::new(share * edge_m, 0.0, 0.0),
-            base_radius_m: 0.5,
-            keys: vec![PlumeKey { time_s: 0.0, power_kw: 20.0 }, PlumeKey { time_s: 10.0, power_kw: 0.0 }],
-            ..Plume::default()
-        })
-        .collect();
-    scene
-}
-
-/// So many flakes in a gusty wind of the same speed as the leaves of [`steady`], over a square of 200 m.
-pub fn snowfall(count: u32) -> Scene {
-    let mut scene = lying_snow(4.0);
-    let (center_m, half_extent_m) = (Vec3::Y * 10.0, Vec3::new(99.0, 12.0, 99.0));
-    scene.weather.iter_mut().for_each(|weather| weather.snow_mm_h = vec![(0.0, 5.0)]);
-    scene.particles = vec![Particles {
-        name: "flakes".into(),
-        count,
-        release: ParticleRelease::Snowfall,
-        from: ParticleShape::Box { center_m: Vec3::Y * 20.0, half_extent_m: Vec3::new(99.0, 0.5, 99.0) },
-        life_s: Some(Spread::Constant(30.0)),
-        size_m: Spread::Constant(0.003),
-        air: Air::Settling { m_s: Spread::Normal(1.0, 0.12) },
-        meets: Meets::Die,
-        dies: Some(Bounds::Through { center_m, half_extent_m }),
-        ..Particles::default()
-    }];
-    scene
-}
-
-/// Snow on 1,600 x 1,600 cells, in frost and a wind of so many m/s. One leaf falls beside it.
-pub fn lying_snow(speed_m_s: f32) -> Scene {
-    let mut scene = Scene { name: format!("snow in {speed_m_s} m/s"), ..Scene::default() };
-    scene.sources[0].count = 1;
-    scene.wind.speed = MeanSpeed::MetresPerSecond(speed_m_s);
-    scene.wind.turbulence.intensity = 0.0;
-    scene.wind.turbulence.calm_m_s = 0.0;
-    scene.weather = Some(Weather {
-        size_m: Vec2::splat(200.0),
-        snow_mm_h: vec![(0.0, 0.0)],
-        air_c: vec![(0.0, -5.0)],
-        lying_mm: 20.0,
-        ..Weather::default()
-    });
     scene
 }
 
