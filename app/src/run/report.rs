@@ -230,17 +230,22 @@ impl Report {
             );
         }
         if let Some(snow) = self.snow {
-            let SnowStats { falling_kg, lying_kg, lying_mm, deepest_m, melted_kg, covered, .. } = snow;
+            let SnowStats {
+                falling_kg,
+                on_branches_kg,
+                lying_kg,
+                lying_mm,
+                deepest_m,
+                melted_kg,
+                covered,
+                ..
+            } = snow;
+            let above = format!("{falling_kg:.2} kg falling, {on_branches_kg:.2} kg on branches");
             let depth = format!(
                 "{lying_mm:.3} mm of water, {deepest_m:.3} m at most, {:.0} % covered",
                 100.0 * covered
             );
-            row(
-                "snow",
-                format!(
-                    "{falling_kg:.2} kg falling; {lying_kg:.2} kg lying: {depth}; {melted_kg:.2} kg melted"
-                ),
-            );
+            row("snow", format!("{above}; {lying_kg:.2} kg lying: {depth}; {melted_kg:.2} kg melted"));
         }
         if let Some(burning) = self.burning {
             let BurningReport { burning, burnt, put_out, left_kg, ash_kg, gone_kg, heat_mj, power_kw } =

@@ -10,7 +10,7 @@ use windfall_core::device::tree::branch_snow::CROWN_TURN;
 use windfall_core::litter::Bed;
 use windfall_core::tree::Branches;
 
-/// Takes the snow of all branches through a step: few, and once a round.
+/// Takes the snow of all branches through a step: one after another, for there is something to do in two steps of a round.
 pub(crate) fn step_branch_snow(cx: &Context<'_>, branches: &Branches, bed: &mut Bed) {
     match snow_turn(cx.step.index) {
         CROWN_TURN => bed.add_branches(cx),

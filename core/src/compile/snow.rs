@@ -8,10 +8,10 @@ use super::solids::bound_m;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock, SnowStepBlock, StepBlock};
 use crate::convert::{len32, low_word, single, word};
 use crate::device::terrain::snow::{
-    DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_WATER_MM,
-    snow_cell,
+    DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_UNIT_KG,
+    SNOW_WATER_MM, snow_cell,
 };
-use crate::device::tree::branch_snow::{CROWN_UNITS_M2, SNOW_UNIT_KG};
+use crate::device::tree::branch_snow::CROWN_UNITS_M2;
 use crate::device::wind::profile::profile_factor;
 use crate::layout::Uint4;
 use crate::litter::Bed;

@@ -8,10 +8,10 @@ use crate::arith::vector::vec3_dot;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
 use crate::convert::word;
-use crate::device::terrain::snow::{SNOW_WATER_MM, SNOW_WORDS, fresh_depth, snow_cell};
+use crate::device::terrain::snow::{SNOW_WATER_MM, fresh_depth, snow_cell};
 use crate::device::tree::branch_snow::{
-    CROWN_CELLS, CROWN_POOL, CROWN_WORDS, branch_catch, branch_offer, branch_room, branch_round, crown_cell,
-    crown_columns, crown_part, crown_pool, crown_square, crown_squares, flake_is_caught,
+    CROWN_CELLS, CROWN_POOL, CROWN_WORDS, branch_catch, branch_offer, branch_room, branch_round, branch_word,
+    crown_cell, crown_columns, crown_part, crown_pool, crown_square, crown_squares, flake_is_caught,
 };
 use crate::tree::Branches;
 use crate::tree::forest::first_three;
@@ -37,7 +37,7 @@ impl Bed {
     /// Range of its words.
     fn branch_snow_range(scene: &SceneBlock) -> std::ops::Range<usize> {
         let snow = &scene.snow;
-        let first = snow.first_word as usize + (SNOW_WORDS * snow.columns * snow.lines) as usize;
+        let first = branch_word(snow, 0) as usize;
         first..first + Self::branch_snow_words(snow)
     }
 

@@ -12,9 +12,9 @@ use crate::context::Context;
 use crate::convert::word;
 use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_SNOW};
 use crate::device::terrain::snow::{
-    AROUND_TURN, FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS,
-    SnowCell, drifted_depth, flake_cell, flake_share, fresh_depth, snow_age, snow_cell, snow_center,
-    snow_drift, snow_drifts, snow_pair, snow_slide, snow_turn,
+    AROUND_TURN, FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_UNIT_KG,
+    SNOW_WATER_MM, SNOW_WORDS, SnowCell, drifted_depth, flake_cell, flake_share, fresh_depth, snow_age,
+    snow_cell, snow_center, snow_drift, snow_drifts, snow_pair, snow_slide, snow_turn,
 };
 use crate::device::tree::branch_snow::CROWN_TURN;
 use crate::device::wind::shelter::wind_shelter;
@@ -26,7 +26,7 @@ use crate::tree::Branches;
 use super::Bed;
 
 /// Kilograms of a unit of water.
-const UNIT_KG: f64 = SNOW_WATER_MM as f64 / (SNOW_CELLS_PER_M as f64 * SNOW_CELLS_PER_M as f64);
+const UNIT_KG: f64 = SNOW_UNIT_KG as f64;
 
 /// The four planes of the snow of a world, each cell's word in the place of its number; empty without snow.
 #[derive(Clone, Copy, Debug)]

@@ -3,9 +3,9 @@
 //! The functions of snow on branches.
 
 use windfall_core::device::tree::branch_snow::{
-    BranchCatch, branch_catch, branch_offer, branch_room, branch_round, branch_snow_kg, crown_cell,
-    crown_columns, crown_part, crown_pool, crown_round, crown_square, crown_squares, crown_width, crown_word,
-    flake_is_caught,
+    BranchCatch, branch_catch, branch_offer, branch_room, branch_round, branch_snow_kg, branch_word,
+    crown_cell, crown_columns, crown_part, crown_pool, crown_round, crown_square, crown_squares, crown_width,
+    crown_word, flake_is_caught,
 };
 
 use super::{Function, Input, float, floats, functions, integers};
@@ -29,7 +29,7 @@ functions! {
 
     crown_part in "tree/branch_snow" (CELL, Input::Below(9000), Input::Below(4), METRES, METRES, Input::Float(-0.2, 1.2)) tolerance None;
     wgsl "let square = crown_square(crown_cell(a.x));
-        r = vec4<u32>(crown_columns() + 64u * crown_round(a.y), crown_squares(), square, crown_width(a.x));
+        r = vec4<u32>(crown_columns() + branch_word(a.y) + 64u * crown_round(a.y), crown_squares(), square, crown_width(a.x));
         s = vec4<u32>(crown_part(a.x, a.y), crown_pool(a.y), crown_word(square, a.z),
             u32(flake_is_caught(bitcast<f32>(a.w), bitcast<f32>(in_word(4u)), bitcast<f32>(in_word(5u)))));";
     rust |cx, w| {
@@ -37,7 +37,7 @@ functions! {
         let square = crown_square(snow, crown_cell(cx, w[0]));
         let is_caught = flake_is_caught(cx, float(w[3]), float(w[4]), float(w[5]));
         integers([
-            crown_columns(snow) + 64 * crown_round(w[1]), crown_squares(snow), square, crown_width(snow, w[0]), crown_part(snow, w[0], w[1]),
+            crown_columns(snow) + branch_word(snow, w[1]) + 64 * crown_round(w[1]), crown_squares(snow), square, crown_width(snow, w[0]), crown_part(snow, w[0], w[1]),
             crown_pool(w[1]), crown_word(snow, square, w[2]), u32::from(is_caught),
         ])
     };

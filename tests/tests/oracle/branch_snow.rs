@@ -3,8 +3,10 @@
 //! Snow on branches: against the law of interception, books to the unit, and limbs that bend beneath it.
 
 use glam::{Vec2, Vec3};
-use windfall_core::device::terrain::snow::{SNOW_AGES, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM};
-use windfall_core::device::tree::branch_snow::{CROWN_TURN, SNOW_UNIT_KG, branch_catch};
+use windfall_core::device::terrain::snow::{
+    SNOW_AGES, SNOW_INTERVAL, SNOW_TURNS, SNOW_UNIT_KG, SNOW_WATER_MM,
+};
+use windfall_core::device::tree::branch_snow::{CROWN_TURN, branch_catch};
 use windfall_core::litter::{flakes_of, has_landed, lies_on};
 use windfall_core::scene::{Foliage, Scene, Tree, TreeForm, TreeKind, TreePreset};
 use windfall_core::{Clock, Simulator, World};
@@ -166,7 +168,7 @@ fn end_m(world: &World, row: usize) -> Vec3 {
     Vec3::new(x, y, z) + glam::Quat::from_array(world.branches.pose[row]) * (Vec3::Y * length)
 }
 
-/// Limbs sink beneath snow, the deeper the more of it they bear, and lose much of it in the thaw, when they rise again.
+/// Limbs sink beneath snow, the deeper the more of it they bear, and lose it in the thaw at the rate of the law.
 #[test]
 fn snow_bends_limbs_until_it_falls() {
     let settled = |fallen_mm: f64, air_c: f32, seconds: f32| {
@@ -174,7 +176,7 @@ fn snow_bends_limbs_until_it_falls() {
         scene.particles[0].count = 1;
         scene.weather.as_mut().expect("stated").snow_mm_h = vec![(0.0, 0.0)];
         let mut world = World::build(&scene).expect("valid");
-        // That reaches farthest from the trunk at rest.
+        // The end that reaches farthest from the trunk at rest.
         let far = |row: &usize| {
             let end = end_m(&world, *row);
             Vec2::new(end.x, end.z).length()

@@ -6,8 +6,9 @@ use windfall_core::CompiledScene;
 use windfall_core::blocks::SceneBlock;
 use windfall_core::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
 use windfall_core::device::terrain::snow::{
-    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_MELTED, SNOW_STEP_M, SNOW_WATER_MM, SNOW_WORDS,
+    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_MELTED, SNOW_STEP_M, SNOW_WATER_MM,
 };
+use windfall_core::device::tree::branch_snow::branch_word;
 use windfall_core::shared_struct;
 use windfall_wgpu::BedColumn;
 
@@ -126,8 +127,7 @@ impl SnowPass {
     /// First word of the snow on branches in the buffer of a bed; 0 without any.
     pub(crate) fn branch_word(&self, bed: Option<&BedColumn<'_>>) -> u32 {
         let snow = &self.compiled.block().snow;
-        let first = snow.first_word + SNOW_WORDS * self.cells;
-        bed.filter(|_| snow.branches != 0).map_or(0, |bed| bed.first_word + first)
+        bed.filter(|_| snow.branches != 0).map_or(0, |bed| bed.first_word + branch_word(snow, 0))
     }
 
     /// Binds the bed of a world.

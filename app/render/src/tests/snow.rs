@@ -5,7 +5,7 @@
 use glam::{Vec2, Vec3};
 use image::RgbaImage;
 use windfall_core::World;
-use windfall_core::scene::{Camera, Exposure, Weather};
+use windfall_core::scene::{Camera, Exposure, Tree, Weather};
 
 use super::{Bench, SIZE, bench};
 
@@ -70,6 +70,32 @@ fn snow_stands_as_high_as_it_is_deep() {
     }
     let seen = super::differing(&level, &bench.draw_snow(&heap));
     assert!((100..4000).contains(&seen), "{seen} pixels differ");
+}
+
+/// A bare tree against the ground is brighter where snow lies on it, and nothing else changes.
+#[test]
+fn snow_on_branches_is_white() {
+    let mut bench = bench(|scene| {
+        let size_m = Vec2::splat(12.0);
+        scene.weather = Some(Weather { size_m, snow_mm_h: vec![(0.0, 0.0)], ..Weather::default() });
+        scene.trees = vec![Tree { kind: "maple".into(), at_m: [0.0, 0.0], ..Tree::default() }];
+        scene.view.camera = Camera {
+            eye_m: Vec3::new(0.0, 9.0, 9.0),
+            target_m: Vec3::new(0.0, 4.0, 0.0),
+            vertical_fov_deg: 40.0,
+        };
+        scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 };
+    });
+    let world = World::build(&bench.scene).expect("valid");
+    let mut laden = world.bed.clone();
+    let held = laden.branch_snow_mut(world.compiled.block()).held;
+    assert!(!held.is_empty(), "the tree stands on the rectangle");
+    held.fill(400_000);
+    let (bare, laden) = (bench.draw_snow(&world.bed.words), bench.draw_snow(&laden.words));
+    let sum = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().copied().map(f64::from).sum::<f64>();
+    let changed: Vec<_> = bare.pixels().zip(laden.pixels()).filter(|(a, b)| a != b).collect();
+    let brighter = changed.iter().filter(|(a, b)| sum(b) > sum(a)).count();
+    assert!(changed.len() > 100 && brighter * 10 > changed.len() * 8, "{brighter} of {}", changed.len());
 }
 
 /// A bed without snow, in some cells of which, by column and line, so much has melted in mm of water.

@@ -12,8 +12,7 @@
 @group(2) @binding(6) var<storage, read> tree_records: array<TreeRecord>;
 @group(2) @binding(7) var<storage, read> bed_words: array<u32>;
 
-// Kilograms of a unit of water, and metres of depth per kg/m² of snow.
-const SNOW_UNIT_KG: f32 = 1.0 / 262144.0;
+// Metres of depth per kg/m² of snow: set by eye.
 const SNOW_M_PER_KG_M2: f32 = 0.011;
 
 struct Varyings {

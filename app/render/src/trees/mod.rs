@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use windfall_core::Scene;
+use windfall_core::device::terrain::snow;
 use windfall_core::layout::WgslStruct;
 use windfall_core::tree::forest::Planted;
 use windfall_core::tree::{AttachmentKind, Forest, Segment, Skeleton};
@@ -34,7 +35,8 @@ pub(crate) fn shaders() -> Shaders {
     let structs = records::TreeRecord::declaration()
         + &bark_mesh::BarkVertex::declaration()
         + &fruit_pass::FruitInstance::declaration();
-    shaders.extend([("trees/structs", declarations([cluster::wgsl_constants()]) + &structs)]);
+    let snow = snow::wgsl_constants().into_iter().filter(|(name, _)| *name == "SNOW_UNIT_KG").collect();
+    shaders.extend([("trees/structs", declarations([cluster::wgsl_constants(), snow]) + &structs)]);
     shaders.extend(wgsl_files!("trees": "records", "bark_shape", "bark_pass", "fruit_pass"));
     shaders
 }

@@ -38,7 +38,7 @@ fn step_branch_snow(@builtin(global_invocation_id) id: vec3<u32>) {
         atomicAdd(&table_words[area], catch_by.area);
         return;
     }
-    let place = bed + scene.snow.first_word + SNOW_WORDS * (scene.snow.columns * scene.snow.lines) + row;
+    let place = bed + branch_word(row);
     let fresh = atomicLoad(&table_words[bed + crown_word(square, pool)]);
     let spin = branch_rows[BRANCH_SPIN * level.column_stride + row].xyz;
     let axis = quat_axis_y(branch_rows[BRANCH_POSE * level.column_stride + row]);

@@ -58,9 +58,12 @@ fn crown_pool(step: u32) -> u32 {
     return CROWN_POOL * (crown_round(step) & 1u);
 }
 
+fn branch_word(row: u32) -> u32 {
+    return scene.snow.first_word + SNOW_WORDS * (scene.snow.columns * scene.snow.lines) + row;
+}
+
 fn crown_word(square: u32, word: u32) -> u32 {
-    let snow = scene.snow;
-    return snow.first_word + SNOW_WORDS * (snow.columns * snow.lines) + snow.branches + word * crown_squares() + square;
+    return branch_word(scene.snow.branches) + word * crown_squares() + square;
 }
 
 fn flake_is_caught(x: f32, z: f32, open: f32) -> bool {
@@ -111,6 +114,6 @@ fn branch_snow_kg(row: u32) -> f32 {
     if (scene.snow.branches == 0u) {
         return 0.0;
     }
-    let place = scene.snow.first_word + SNOW_WORDS * (scene.snow.columns * scene.snow.lines) + row;
+    let place = branch_word(row);
     return f32(tables[scene.litter.first_row + (place >> 2u)][place & 3u]) * SNOW_UNIT_KG;
 }

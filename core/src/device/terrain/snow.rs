@@ -28,6 +28,8 @@ crate::shared_constants! {
     pub const SNOW_DEPTH_M: f32 = 1.0 / 262_144.0;
     /// Millimetres of water per unit: over a cell, 3.8 mg.
     pub const SNOW_WATER_MM: f32 = 1.0 / 4096.0;
+    /// Kilograms of a unit of water: 1/4096 mm over a cell.
+    pub const SNOW_UNIT_KG: f32 = 1.0 / 262_144.0;
     /// Words of a cell, each in a plane of its own: water, depth, what has melted and what has landed.
     pub const SNOW_WORDS: u32 = 4;
     /// Plane of the water.

@@ -17,7 +17,7 @@ use crate::arith::math::reciprocal;
 use crate::arith::rng::{philox, unit_float};
 use crate::blocks::SnowBlock;
 use crate::context::Context;
-use crate::device::terrain::snow::{SNOW_INTERVAL, SNOW_TURNS, SNOW_WORDS, round_at_random};
+use crate::device::terrain::snow::{SNOW_INTERVAL, SNOW_TURNS, SNOW_UNIT_KG, SNOW_WORDS, round_at_random};
 use crate::layout::Uint4;
 
 crate::shared_constants! {
@@ -33,8 +33,7 @@ crate::shared_constants! {
     pub const CROWN_UNITS_M2: f32 = 65_536.0;
     /// Share of the water over a square that segments take at most, so that rounding never gives more than there is.
     pub const CROWN_TAKEN: f32 = 0.999_99;
-    /// Kilograms of a unit of water: 1/4096 mm over a cell.
-    pub const SNOW_UNIT_KG: f32 = 1.0 / 262_144.0;
+
     /// Squared angular velocity in rad²/s² from which on a branch shakes snow off: assumed.
     pub const SHAKING_SQUARED: f32 = 1.0;
     /// Share of its snow that it then loses in a round: assumed.
@@ -124,14 +123,16 @@ pub fn crown_pool(step: u32) -> u32 {
     CROWN_POOL * (crown_round(step) & 1)
 }
 
+/// Place among the words of the litter of the snow on the segment in a row.
+#[inline(always)]
+pub fn branch_word(snow: &SnowBlock, row: u32) -> u32 {
+    snow.first_word + SNOW_WORDS * (snow.columns * snow.lines) + row
+}
+
 /// Place among the words of the litter of one of the words of a square.
 #[inline(always)]
 pub fn crown_word(snow: &SnowBlock, square: u32, word: u32) -> u32 {
-    snow.first_word
-        + SNOW_WORDS * (snow.columns * snow.lines)
-        + snow.branches
-        + word * crown_squares(snow)
-        + square
+    branch_word(snow, snow.branches) + word * crown_squares(snow) + square
 }
 
 /// Returns true for a flake that a crown is in the way of, where so much of the sky is open.
@@ -196,6 +197,5 @@ pub fn branch_snow_kg<W: Word>(cx: &Context<'_>, row: W) -> W::Real {
     if snow.branches == 0 {
         return row.all(0).to_real();
     }
-    let first = snow.first_word + SNOW_WORDS * (snow.columns * snow.lines);
-    row.plus(row.all(first)).look_up_word(cx.litter).to_real() * SNOW_UNIT_KG
+    row.plus(row.all(branch_word(snow, 0))).look_up_word(cx.litter).to_real() * SNOW_UNIT_KG
 }
