@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use windfall_core::{Contract, SimError};
 
-use crate::pipelines::shader_module;
+use crate::pipelines::{CompiledKernels, shader_module};
 use crate::readback::read_buffer;
 
 /// The first report of trouble with the device: its loss, or an error.
@@ -19,6 +19,7 @@ pub struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     health: Health,
+    compiled: Arc<CompiledKernels>,
     /// True if the device is of our making, and its callbacks are ours.
     is_own: bool,
 }
@@ -130,7 +131,8 @@ impl Gpu {
     /// Its callbacks for loss and for uncaptured errors stay the host's: errors of our calls are caught in error scopes, and
     /// its loss shows in the next of our calls that fails or waits.
     pub fn from_parts(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        Self { info, device, queue, health: Health::default(), is_own: false }
+        let (health, compiled) = (Health::default(), Arc::default());
+        Self { info, device, queue, health, compiled, is_own: false }
     }
 
     /// The adapter.
@@ -146,6 +148,11 @@ impl Gpu {
     /// Its queue.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
+    }
+
+    /// The kernels that simulators on it have needed so far.
+    pub(crate) fn compiled(&self) -> &CompiledKernels {
+        &self.compiled
     }
 
     /// The closest contract this device can keep.

@@ -3,6 +3,8 @@
 //! Compute pipelines under either contract.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
 
 use windfall_core::scene::{Particles, SwayScheme};
 use windfall_core::{CompiledScene, Contract, SimError};
@@ -154,7 +156,7 @@ impl KernelId {
     }
 
     /// The kernels that step and count a world of this scene.
-    pub(crate) fn needed(compiled: &CompiledScene) -> Vec<Self> {
+    pub fn needed(compiled: &CompiledScene) -> Vec<Self> {
         let mut kernels =
             vec![Self::ListActive, Self::SampleAir, Self::Advance, Self::ResolveEvents, Self::Measure];
         if compiled.block().has_bodies() {
@@ -209,6 +211,9 @@ impl KernelId {
         }
     }
 }
+
+/// All that a device has compiled, by kernel, contract and text: its simulators share it, as drivers take up to seconds for a kernel.
+pub(crate) type CompiledKernels = Mutex<HashMap<(KernelId, Contract, String), wgpu::ComputePipeline>>;
 
 /// Binding layouts, and the pipelines of the kernels that have been needed so far.
 #[derive(Debug)]
@@ -290,7 +295,7 @@ impl Pipelines {
     }
 }
 
-/// The pipeline of one kernel on bindings of these layouts.
+/// The pipeline of one kernel on bindings of these layouts, compiled if the device has not done so before.
 fn pipeline(
     gpu: &Gpu,
     shaders: &Shaders,
@@ -299,8 +304,14 @@ fn pipeline(
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> Result<wgpu::ComputePipeline, SimError> {
     let source = shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
-    let module = shader_module(gpu, &source, kernel.name(), contract)?;
-    gpu.scoped(|| {
+    let key = (kernel, contract, source);
+    // Not held while a kernel is compiled: others go on meanwhile.
+    let compiled = || gpu.compiled().lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(pipeline) = compiled().get(&key) {
+        return Ok(pipeline.clone());
+    }
+    let module = shader_module(gpu, &key.2, kernel.name(), contract)?;
+    let pipeline = gpu.scoped(|| {
         let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(kernel.name()),
             bind_group_layouts: layouts,
@@ -314,7 +325,9 @@ fn pipeline(
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         })
-    })
+    })?;
+    compiled().insert(key, pipeline.clone());
+    Ok(pipeline)
 }
 
 /// A shader module: plain WGSL, or SPIR-V whose every float operation keeps its own rounding.

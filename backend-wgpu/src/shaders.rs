@@ -162,6 +162,8 @@ pub enum ShaderError {
 #[derive(Clone, Debug)]
 pub struct Shaders {
     modules: Vec<(&'static str, String)>,
+    /// Modules as one kernel sees them.
+    of_kernels: Vec<(KernelId, &'static str, String)>,
 }
 
 macro_rules! modules {
@@ -304,14 +306,14 @@ impl Default for Shaders {
         modules.push(("prelude", prelude::structs() + &prelude::constants() + &lists::declarations()));
         // Every binding is of a prelude type.
         modules[0].1.insert_str(0, "#import prelude\n");
-        Self { modules }
+        Self { modules, of_kernels: Vec::new() }
     }
 }
 
 impl FromIterator<(&'static str, String)> for Shaders {
     /// Modules by name and text, which import each other and none of the simulator's.
     fn from_iter<I: IntoIterator<Item = (&'static str, String)>>(modules: I) -> Self {
-        Self { modules: modules.into_iter().collect() }
+        Self { modules: modules.into_iter().collect(), of_kernels: Vec::new() }
     }
 }
 
@@ -344,14 +346,25 @@ impl Shaders {
         Some(self)
     }
 
+    /// The same, but one kernel alone sees the edit, and is all that has to be compiled anew. `None` also if it does not import the module.
+    #[must_use]
+    pub fn edited_in(mut self, kernel: KernelId, name: &str, old: &str, new: &str) -> Option<Self> {
+        let (file, mut seen) = (format!("kernels/{}", kernel.name()), BTreeSet::new());
+        self.append(&file, None, &mut seen, &mut String::new()).ok()?;
+        let (name, text) = self.modules.iter().find(|module| module.0 == name)?;
+        if !seen.contains(name) || !text.contains(old) {
+            return None;
+        }
+        self.of_kernels.push((kernel, name, text.replacen(old, new, 1)));
+        Some(self)
+    }
+
     /// One module with everything it imports, each once, imports first.
     ///
     /// # Errors
     /// [`ShaderError::UnknownModule`].
     pub fn compose(&self, name: &str) -> Result<String, ShaderError> {
-        let mut source = String::new();
-        self.append(name, &mut BTreeSet::new(), &mut source)?;
-        Ok(source)
+        self.compose_for(name, None)
     }
 
     /// A kernel with everything it imports.
@@ -359,21 +372,30 @@ impl Shaders {
     /// # Errors
     /// [`ShaderError::UnknownModule`].
     pub fn kernel(&self, kernel: KernelId) -> Result<String, ShaderError> {
-        self.compose(&format!("kernels/{}", kernel.name()))
+        self.compose_for(&format!("kernels/{}", kernel.name()), Some(kernel))
+    }
+
+    fn compose_for(&self, name: &str, kernel: Option<KernelId>) -> Result<String, ShaderError> {
+        let mut source = String::new();
+        self.append(name, kernel, &mut BTreeSet::new(), &mut source)?;
+        Ok(source)
     }
 
     fn append<'a>(
         &'a self,
         name: &'a str,
+        kernel: Option<KernelId>,
         seen: &mut BTreeSet<&'a str>,
         out: &mut String,
     ) -> Result<(), ShaderError> {
         if !seen.insert(name) {
             return Ok(());
         }
-        let text = self.text(name).ok_or_else(|| ShaderError::UnknownModule(name.into()))?;
+        let own = self.of_kernels.iter().find(|(of, module, _)| Some(*of) == kernel && *module == name);
+        let text = own.map(|(_, _, text)| text.as_str()).or_else(|| self.text(name));
+        let text = text.ok_or_else(|| ShaderError::UnknownModule(name.into()))?;
         for import in text.lines().filter_map(|line| line.strip_prefix("#import ")) {
-            self.append(import.trim(), seen, out)?;
+            self.append(import.trim(), kernel, seen, out)?;
         }
         out.extend(text.lines().filter(|line| !line.starts_with("#import ")).flat_map(|line| [line, "\n"]));
         Ok(())

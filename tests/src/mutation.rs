@@ -5,49 +5,46 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use windfall_core::{Simulator, World};
+use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 
+use crate::adapter;
 use crate::compare::{Difference, difference};
 
-/// Runs `work` on all items, two at a time: drivers compile shaders on the caller's thread.
+/// Runs `work` on all items, two at a time: one on this device of [`adapter::all`], one on its other, each of which keeps what it has compiled.
 ///
 /// # Panics
 /// If `work` does.
-pub fn two_at_a_time<T>(items: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
+pub fn two_at_a_time<T>(gpu: &Gpu, items: impl Iterator<Item = T> + Send, work: impl Fn(&Gpu, T) + Sync) {
     let items = Mutex::new(items);
     // A worker that panics does so in `work`, behind the lock.
     let next = || items.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let worker = || {
+    let worker = |gpu: Gpu| {
         while let Some(item) = next() {
-            work(item);
+            work(&gpu, item);
         }
     };
     std::thread::scope(|scope| {
-        for worker in [scope.spawn(worker), scope.spawn(worker)] {
+        for worker in [gpu.clone(), adapter::other(gpu)].map(|gpu| scope.spawn(|| worker(gpu))) {
             worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
     });
 }
 
-/// The same shaders, but these kernels do nothing, and are compiled in no time. For worlds in which they have nothing to do, which is
-/// for the test to show.
+/// A line of a module, changed in one of the kernels of a world after another, the shortest first: nobody has to compile all kernels that import
+/// a module before one of them shows what has changed.
 ///
 /// # Panics
-/// If a kernel is not among the shaders.
-#[must_use]
-pub fn with_idle(mut shaders: Shaders, kernels: impl IntoIterator<Item = KernelId>) -> Shaders {
-    for kernel in kernels {
-        let module = format!("kernels/{}", kernel.name());
-        let text = shaders.text(&module).expect("a kernel has a module of its name").to_owned();
-        let idle = format!(
-            "#import prelude\n@compute @workgroup_size(WORKGROUP_SIZE)\nfn {}() {{}}\n",
-            kernel.name()
-        );
-        shaders = shaders.edited(&module, &text, &idle).expect("its own text is there");
-    }
-    shaders
+/// If the line is not in the module, or no kernel of the world imports it.
+pub fn edited_kernels(world: &World, module: &str, old: &str, new: &str) -> Vec<Shaders> {
+    let shaders = Shaders::default();
+    let mut kernels = KernelId::needed(&world.compiled);
+    kernels.sort_by_key(|&kernel| shaders.kernel(kernel).map_or(usize::MAX, |text| text.len()));
+    let edited = |kernel| shaders.clone().edited_in(kernel, module, old, new);
+    let edited: Vec<_> = kernels.into_iter().filter_map(edited).collect();
+    assert!(!edited.is_empty(), "no kernel of this world sees '{old}' in {module}");
+    edited
 }
 
 /// States of the oracle on the way from one world.
@@ -74,6 +71,18 @@ impl Course {
         });
         let states = states.collect();
         Self { start, states }
+    }
+
+    /// Returns true if a device's states differ from these with a line of a module changed in some kernel.
+    ///
+    /// # Panics
+    /// If the line is not there; if the device cannot step the world.
+    pub fn notices(&self, gpu: &Gpu, module: &str, old: &str, new: &str) -> bool {
+        edited_kernels(&self.start, module, old, new).into_iter().any(|shaders| {
+            let contract = Some(Contract::Exact);
+            let options = WgpuOptions { contract, shaders: Some(shaders), ..WgpuOptions::default() };
+            self.first_difference(gpu, &options).is_some()
+        })
     }
 
     /// The first difference of a device's states from these; `None` if they are equal to the bit.

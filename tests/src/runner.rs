@@ -29,7 +29,7 @@ const CARRIERS_BINDING: &str = "@group(1) @binding(6)";
 pub struct FunctionRunner<'a> {
     gpu: &'a Gpu,
     pipeline: wgpu::ComputePipeline,
-    context_group: wgpu::BindGroup,
+    context_layout: wgpu::BindGroupLayout,
     cases_layout: wgpu::BindGroupLayout,
 }
 
@@ -74,13 +74,12 @@ fn entry(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntr
 }
 
 impl<'a> FunctionRunner<'a> {
-    /// Compiles the kernel of a function that sees the tables and blocks of `world`.
+    /// Compiles the kernel of a function.
     pub fn new(
         gpu: &'a Gpu,
         contract: Contract,
         shaders: &Shaders,
         function: &Function,
-        world: &World,
     ) -> Result<Self, SimError> {
         let device = gpu.device();
         let uniform = wgpu::BufferBindingType::Uniform;
@@ -93,16 +92,6 @@ impl<'a> FunctionRunner<'a> {
         };
         let context_layout = layout(&entries);
         let cases_layout = layout(&[entry(0, storage(true)), entry(1, storage(false))]);
-        let step = world.compiled.step_block(&world.clock);
-        let tables: &[u8] = bytemuck::cast_slice(world.compiled.tables());
-        let bed: &[u8] = bytemuck::cast_slice(&world.bed.words);
-        let buffers = [
-            upload(gpu, bytemuck::bytes_of(world.compiled.block()), wgpu::BufferUsages::UNIFORM),
-            upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
-            upload(gpu, &[tables, bed].concat(), wgpu::BufferUsages::STORAGE),
-            upload(gpu, bytemuck::cast_slice(&carriers_of(world)), wgpu::BufferUsages::STORAGE),
-        ];
-        let context_group = bind(gpu, &context_layout, &buffers);
         let source = kernel_source(shaders, function);
         let module = gpu.compute_module(&source, "evaluate", contract)?;
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -119,11 +108,26 @@ impl<'a> FunctionRunner<'a> {
             cache: None,
         });
         gpu.check()?;
-        Ok(Self { gpu, pipeline, context_group, cases_layout })
+        Ok(Self { gpu, pipeline, context_layout, cases_layout })
     }
 
-    /// The function's results for these cases.
-    pub fn run(&self, cases: &[Words]) -> Result<Vec<Words>, SimError> {
+    /// Tables and blocks of a world, for the function to see.
+    pub fn context(&self, world: &World) -> wgpu::BindGroup {
+        let gpu = self.gpu;
+        let step = world.compiled.step_block(&world.clock);
+        let tables: &[u8] = bytemuck::cast_slice(world.compiled.tables());
+        let bed: &[u8] = bytemuck::cast_slice(&world.bed.words);
+        let buffers = [
+            upload(gpu, bytemuck::bytes_of(world.compiled.block()), wgpu::BufferUsages::UNIFORM),
+            upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
+            upload(gpu, &[tables, bed].concat(), wgpu::BufferUsages::STORAGE),
+            upload(gpu, bytemuck::cast_slice(&carriers_of(world)), wgpu::BufferUsages::STORAGE),
+        ];
+        bind(gpu, &self.context_layout, &buffers)
+    }
+
+    /// The function's results for these cases in such a context.
+    pub fn run(&self, context: &wgpu::BindGroup, cases: &[Words]) -> Result<Vec<Words>, SimError> {
         let bytes: &[u8] = bytemuck::cast_slice(cases);
         let input = upload(self.gpu, bytes, wgpu::BufferUsages::STORAGE);
         let output = upload(
@@ -137,7 +141,7 @@ impl<'a> FunctionRunner<'a> {
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &self.context_group, &[]);
+            pass.set_bind_group(0, context, &[]);
             pass.set_bind_group(2, &group, &[]);
             let count = u32::try_from(cases.len()).expect("a few thousand cases");
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);

@@ -13,10 +13,12 @@ use ssimulacra2::{ColorPrimaries, Rgb, TransferCharacteristic, compute_frame_ssi
 use windfall::backend::{BackendArguments, BackendKind};
 use windfall::cancel::Cancel;
 use windfall::drawing::Drawing;
+use windfall::scenes::atlas_of;
 use windfall::studio::Studio;
-use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, ToneMap};
+use windfall_core::{Scene, World};
 use windfall_render::with_shader_edit;
+use windfall_texgen::Atlas;
 
 /// Size of the pictures: small, but nothing of a scene is lost.
 const SIZE: (u32, u32) = (256, 144);
@@ -62,22 +64,37 @@ fn focus(scene: &mut Scene) {
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.2 };
 }
 
+/// A case that is ready to be drawn several times.
+struct Prepared {
+    case: &'static Case,
+    world: World,
+    atlas: Atlas,
+}
+
 impl Case {
-    fn draw(&self) -> RgbaImage {
+    fn prepare(&'static self) -> Prepared {
         let mut scene = Scene::preset(self.preset).expect("a preset");
         (self.change)(&mut scene);
-        let (backend, adapter) = (Some(BackendKind::Cpu), Some(RASTERISER.into()));
-        let arguments = BackendArguments { backend, adapter, ..BackendArguments::default() };
-        let drawing = Drawing::without_window(&arguments)
-            .expect("Mesa's software Vulkan: install mesa-vulkan-drivers; scripts/test does");
-        let mut studio =
-            Studio::new(&scene, drawing, SIZE, &Cancel::default()).expect("a preset can be drawn");
-        studio.advance(self.steps).expect("the cpu simulates");
-        studio.draw(f64::INFINITY).expect("a picture")
+        let world = World::build(&scene).expect("a preset can be built");
+        let atlas = atlas_of(&scene, &|_, _| ()).expect("leaves can be made");
+        Prepared { case: self, world, atlas }
     }
 
     fn golden(&self) -> PathBuf {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{}.png", self.name))
+    }
+}
+
+impl Prepared {
+    fn draw(&self) -> RgbaImage {
+        let (backend, adapter) = (Some(BackendKind::Cpu), Some(RASTERISER.into()));
+        let arguments = BackendArguments { backend, adapter, ..BackendArguments::default() };
+        let drawing = Drawing::without_window(&arguments)
+            .expect("Mesa's software Vulkan: install mesa-vulkan-drivers; scripts/test does");
+        let mut studio = Studio::with_leaves(&self.world, &self.atlas, drawing, SIZE, &Cancel::default())
+            .expect("a preset can be drawn");
+        studio.advance(self.case.steps).expect("the cpu simulates");
+        studio.draw(f64::INFINITY).expect("a picture")
     }
 }
 
@@ -119,7 +136,7 @@ fn pictures_are_as_they_were() {
     let is_blessing = std::env::var_os("WINDFALL_BLESS").is_some();
     let mut failures = Vec::new();
     for case in &CASES {
-        let new = case.draw();
+        let new = case.prepare().draw();
         let old = golden(case).filter(|old| old.dimensions() == SIZE);
         let found = old.as_ref().map(|old| score(old, &new));
         println!("{}: {found:?}", case.name);
@@ -152,10 +169,11 @@ const BREAKS: [(&str, usize, &str, &str); 8] = [
 
 #[test]
 fn broken_shaders_are_noticed() {
-    let whole = [0, 1, 2].map(|case| CASES[case].draw());
+    let prepared = [0, 1, 2].map(|case| CASES[case].prepare());
+    let whole = prepared.each_ref().map(Prepared::draw);
     let mut unnoticed = Vec::new();
     for (name, case, from, to) in BREAKS {
-        let broken = with_shader_edit(from, to, || CASES[case].draw());
+        let broken = with_shader_edit(from, to, || prepared[case].draw());
         let found = score(&whole[case], &broken);
         println!("{name}: {found}");
         if found >= LEAST_SCORE {
@@ -163,6 +181,6 @@ fn broken_shaders_are_noticed() {
         }
     }
     assert!(unnoticed.is_empty(), "no worse than {LEAST_SCORE}: {unnoticed:?}");
-    let again = CASES[2].draw();
+    let again = prepared[2].draw();
     assert!(whole[2] == again, "whole shaders draw the same picture again");
 }

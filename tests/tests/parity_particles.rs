@@ -10,34 +10,13 @@ use windfall_core::{Contract, SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
-use windfall_tests::mutation::{Course, two_at_a_time, with_idle};
+use windfall_tests::mutation::{Course, two_at_a_time};
 use windfall_tests::strategies::{hilly_scene, particle_scene};
-use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 const DT_S: f32 = 1.0 / 60.0;
 /// Steps after which a change is looked for: most show at once.
 const LOOKS: [u32; 3] = [4, 16, 60];
-/// Kernels that move particles, and the snow that some of them become.
-const OF_PARTICLES: [KernelId; 6] = [
-    KernelId::StepParticles,
-    KernelId::PullParticles,
-    KernelId::CarryForces,
-    KernelId::KeepHistory,
-    KernelId::LandFlakes,
-    KernelId::StepSnow,
-];
-/// Kernels that move flakes, snow, trees and their leaves.
-const OF_BRANCHES: [KernelId; 8] = [
-    KernelId::StepParticles,
-    KernelId::LandFlakes,
-    KernelId::StepBranchSnow,
-    KernelId::StepSnow,
-    KernelId::SwayInward,
-    KernelId::SwayOutward,
-    KernelId::SwayCoast,
-    KernelId::Carry,
-];
-
 fn world() -> World {
     World::build(&particle_scene(31, 4.0, DT_S)).expect("the scene of particles is valid")
 }
@@ -60,8 +39,8 @@ fn on_gpu(gpu: &Gpu, world: &World, options: &WgpuOptions, batches: &[u32]) -> W
     result
 }
 
-fn exact(page_leaves: Option<u32>, shaders: Option<Shaders>) -> WgpuOptions {
-    WgpuOptions { contract: Some(Contract::Exact), page_leaves, shaders }
+fn exact(page_leaves: Option<u32>) -> WgpuOptions {
+    WgpuOptions { contract: Some(Contract::Exact), page_leaves, ..WgpuOptions::default() }
 }
 
 fn exact_adapters() -> impl Iterator<Item = Gpu> {
@@ -87,12 +66,12 @@ fn a_thousand_steps_of_particles_are_equal_to_the_bit() {
     let [born, died, hits, ..] = totals(&expected);
     assert!(born > 8000 && died > 7000 && hits > 8000, "much happens: {:?}", totals(&expected));
     for gpu in exact_adapters() {
-        let found = on_gpu(&gpu, &world, &exact(None, None), &[1000]);
+        let found = on_gpu(&gpu, &world, &exact(None), &[1000]);
         let apart = difference(&expected, &found);
         assert!(apart.is_none(), "{}: {apart:?}", gpu.info().name);
         assert_eq!(expected.state_hash(), found.state_hash(), "{}", gpu.info().name);
         // Small pages, and portions of any length.
-        let found = on_gpu(&gpu, &world, &exact(Some(4096), None), &[1, 40, 7, 72]);
+        let found = on_gpu(&gpu, &world, &exact(Some(4096)), &[1, 40, 7, 72]);
         assert_eq!(on_cpu(&world, CpuOptions::default(), 120).state_hash(), found.state_hash(), "pages");
     }
 }
@@ -116,7 +95,7 @@ fn children_are_the_same_on_both_backends() {
     let lost = stats[12].born - stats[13].born;
     assert!(lost <= stats[12].cut_short && stats[12].cut_short < stats[12].born, "of every birth: {stats:?}");
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
-    assert_eq!(on_gpu(&gpu, &world, &exact(None, None), &[1000]).particle_stats(), stats, "on the device");
+    assert_eq!(on_gpu(&gpu, &world, &exact(None), &[1000]).particle_stats(), stats, "on the device");
     let mut apart = world.compiled.scene().clone();
     for (population, count) in [(8, 600), (10, 3600), (11, 4800)] {
         apart.particles[population].count = count;
@@ -127,7 +106,7 @@ fn children_are_the_same_on_both_backends() {
     // So many carry no force.
     apart.forces.iter_mut().for_each(|force| force.carried_by = None);
     let apart = World::build(&apart).expect("valid with more slots");
-    let refused = WgpuSimulator::new(&gpu, &apart, &exact(Some(4096), None)).expect_err("too far apart");
+    let refused = WgpuSimulator::new(&gpu, &apart, &exact(Some(4096))).expect_err("too far apart");
     assert!(matches!(refused, SimError::Capacity { rows: 6005, .. }), "{refused}");
 }
 
@@ -140,7 +119,7 @@ fn particles_on_hills_are_equal_to_the_bit() {
     let world = World::build(&hilly_scene(particle_scene(32, 7.0, DT_S))).expect("valid on hills");
     let expected = on_cpu(&world, CpuOptions::default(), 150);
     for gpu in exact_adapters() {
-        let apart = difference(&expected, &on_gpu(&gpu, &world, &exact(None, None), &[150]));
+        let apart = difference(&expected, &on_gpu(&gpu, &world, &exact(None), &[150]));
         assert!(apart.is_none(), "{}: {apart:?}", gpu.info().name);
     }
 }
@@ -208,7 +187,7 @@ fn a_resumed_checkpoint_goes_on_to_the_bit() {
     assert!(difference(&resumed, &whole).is_none(), "{:?}", difference(&resumed, &whole));
     assert_eq!(resumed.state_hash(), whole.state_hash(), "the same births");
     for gpu in exact_adapters() {
-        let found = on_gpu(&gpu, &read, &exact(None, None), &[120]);
+        let found = on_gpu(&gpu, &read, &exact(None), &[120]);
         assert_eq!(found.state_hash(), whole.state_hash(), "{}", gpu.info().name);
     }
 }
@@ -226,7 +205,7 @@ fn another_wind_is_taken_over_and_another_number_of_particles_refused() {
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
     let mut simulators: Vec<Box<dyn Simulator>> = vec![
         Box::new(CpuSimulator::new(&world, CpuOptions::default()).expect("threads start")),
-        Box::new(WgpuSimulator::new(&gpu, &world, &exact(None, None)).expect("the device takes it")),
+        Box::new(WgpuSimulator::new(&gpu, &world, &exact(None)).expect("the device takes it")),
     ];
     let mut hashes = Vec::new();
     for simulator in &mut simulators {
@@ -300,17 +279,10 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ("kernels/step_snow", "on.x - other_on.x, way_m", "other_on.x - on.x, way_m"),
         ("terrain/snow", "words.x), cell.water)", "words.y), cell.water)"),
     ];
-    let apart = |shaders: Shaders| {
-        let others = KernelId::ALL.into_iter().filter(|kernel| !OF_PARTICLES.contains(kernel));
-        let options = exact(None, Some(with_idle(shaders, others)));
-        course.first_difference(&gpu, &options)
-    };
-    let unchanged = apart(Shaders::default());
-    assert!(unchanged.is_none(), "the other kernels are not needed: {unchanged:?}");
-    two_at_a_time(edits.into_iter(), |(module, old, new)| {
-        let shaders = Shaders::default().edited(module, old, new);
-        let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
-        assert!(apart(shaders).is_some(), "{module}: '{new}' goes unnoticed");
+    let unchanged = course.first_difference(&gpu, &exact(None));
+    assert!(unchanged.is_none(), "both backends move particles alike: {unchanged:?}");
+    two_at_a_time(&gpu, edits.into_iter(), |gpu, (module, old, new)| {
+        assert!(course.notices(gpu, module, old, new), "{module}: '{new}' goes unnoticed");
     });
 }
 
@@ -352,17 +324,10 @@ fn drifting_snow_is_equal_to_the_bit() {
         ("terrain/snow", "return SnowPair(column, false, true)", "return none"),
         ("terrain/snow", "left * toward <= 0.0", "left * toward >= 0.0"),
     ];
-    let apart = |shaders: Shaders| {
-        let others = KernelId::ALL.into_iter().filter(|kernel| !OF_PARTICLES.contains(kernel));
-        let options = exact(None, Some(with_idle(shaders, others)));
-        course.first_difference(&gpu, &options)
-    };
-    let unchanged = apart(Shaders::default());
+    let unchanged = course.first_difference(&gpu, &exact(None));
     assert!(unchanged.is_none(), "both backends drift snow alike: {unchanged:?}");
-    two_at_a_time(edits.into_iter(), |(module, old, new)| {
-        let shaders = Shaders::default().edited(module, old, new);
-        let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
-        assert!(apart(shaders).is_some(), "{module}: '{new}' goes unnoticed");
+    two_at_a_time(&gpu, edits.into_iter(), |gpu, (module, old, new)| {
+        assert!(course.notices(gpu, module, old, new), "{module}: '{new}' goes unnoticed");
     });
 }
 
@@ -413,16 +378,9 @@ fn snow_on_branches_is_equal_to_the_bit() {
         ("tree/branch_snow", "open <= unit_float", "open > unit_float"),
         ("tree/branch_snow", "[place & 3u]) * SNOW_UNIT_KG", "[place & 3u]) * SNOW_UNIT_KG * 1.1"),
     ];
-    let apart = |shaders: Shaders| {
-        let others = KernelId::ALL.into_iter().filter(|kernel| !OF_BRANCHES.contains(kernel));
-        let options = exact(None, Some(with_idle(shaders, others)));
-        course.first_difference(&gpu, &options)
-    };
-    let unchanged = apart(Shaders::default());
+    let unchanged = course.first_difference(&gpu, &exact(None));
     assert!(unchanged.is_none(), "both backends load branches alike: {unchanged:?}");
-    two_at_a_time(edits.into_iter(), |(module, old, new)| {
-        let shaders = Shaders::default().edited(module, old, new);
-        let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
-        assert!(apart(shaders).is_some(), "{module}: '{new}' goes unnoticed");
+    two_at_a_time(&gpu, edits.into_iter(), |gpu, (module, old, new)| {
+        assert!(course.notices(gpu, module, old, new), "{module}: '{new}' goes unnoticed");
     });
 }

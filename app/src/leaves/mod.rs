@@ -25,13 +25,13 @@ const LARGE_PICTURES: usize = 192;
 const SEED: u64 = 0x1eaf;
 
 /// Called with how many leaves are made, of how many; several times for several species.
-pub(crate) type LeafProgress = dyn Fn(u32, u32) + Sync;
+pub type LeafProgress = dyn Fn(u32, u32) + Sync;
 
 /// Returns the pictures and meshes for all species of a scene.
 ///
 /// # Errors
 /// A folder that a species names and that cannot be used. Leaves that are made cannot fail for want of a cache.
-pub(crate) fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result<Atlas> {
+pub fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result<Atlas> {
     let most = MAX_LAYERS / scene.species.len().max(1);
     let is_large = scene.species.len() * VARIANTS as usize <= LARGE_PICTURES;
     let size_px = if is_large { PICTURE_SIZE } else { SMALL_SIZE };

@@ -7,6 +7,7 @@ use windfall_core::{CompiledScene, Scene, Simulator, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
 use windfall_render::{FrameInput, Paint, PictureTarget, RenderScene, Renderer, RendererOptions, ShelterMap};
+use windfall_texgen::Atlas;
 use windfall_wgpu::Gpu;
 
 use crate::leaves::{self, LeafProgress};
@@ -52,16 +53,29 @@ impl Studio {
         cancel: &Cancel,
         progress: &LeafProgress,
     ) -> anyhow::Result<Self> {
+        Self::with_leaves(world, &leaves::atlas_of(world.compiled.scene(), progress)?, drawing, size, cancel)
+    }
+
+    /// The same with the pictures of the scene's leaves, for several studios of one scene.
+    ///
+    /// # Errors
+    /// A device or a size that cannot be used; a request to end.
+    pub fn with_leaves(
+        world: &World,
+        atlas: &Atlas,
+        drawing: Drawing,
+        size: (u32, u32),
+        cancel: &Cancel,
+    ) -> anyhow::Result<Self> {
         let scene = world.compiled.scene();
         let Drawing { device, gpu, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
         let backend = device.simulator(world)?;
         cancel.check()?;
-        let atlas = leaves::atlas_of(scene, progress)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
         let scene_trees = SceneTrees::of(scene, world.compiled.forest());
-        let render_scene = RenderScene::of(scene, &world.compiled, &scene_trees, &atlas);
+        let render_scene = RenderScene::of(scene, &world.compiled, &scene_trees, atlas);
         let renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?;
         gpu.check()?;
         Ok(Self {

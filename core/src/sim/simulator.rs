@@ -10,7 +10,7 @@ use crate::error::SimError;
 use crate::store::StoreSize;
 
 /// Closeness to which a backend's state agrees with the CPU oracle's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contract {
     /// Every bit of the state is the same.
     Exact,

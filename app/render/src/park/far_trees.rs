@@ -3,11 +3,10 @@
 //! Draws the trees of the park, and once per sun the map of their shade.
 
 use glam::Vec3;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::layout::TreeInstance;
 use super::tree_canvas::SPRITE_SIZE;
-use super::tree_sprite::{SPRITE_COUNT, paint_tree};
+use super::tree_sprite::painted_trees;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
@@ -47,8 +46,7 @@ impl Trees {
                 sampler_entry(1, wgpu::SamplerBindingType::Filtering),
             ],
         });
-        let sprites: Vec<_> =
-            (0..SPRITE_COUNT).into_par_iter().map(|index| paint_tree(index, leaves)).collect();
+        let sprites = painted_trees(leaves);
         let images: Vec<Vec<&[u8]>> = sprites
             .iter()
             .flat_map(|sprite| [&sprite.surface, &sprite.relief])

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Paints a grown tree seen from the side, with what is needed to light it again from any direction.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use glam::{Vec2, Vec3};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use windfall_core::scene::{Tree, TreePreset};
 use windfall_core::tree::{Attachment, AttachmentKind, Skeleton, grow};
 
@@ -35,8 +38,24 @@ const TWIG: f32 = 0.045;
 const TWIG_RADII: [f32; 2] = [0.0002, 0.0001];
 const TWIG_EVERY: u32 = 3;
 
+/// All trees with a share of their leaves. Those painted last are kept, as a renderer is often followed by another in the same season.
+pub(crate) fn painted_trees(leaves: f32) -> Arc<[TreeSprite]> {
+    static LAST: Mutex<Option<(f32, Arc<[TreeSprite]>)>> = Mutex::new(None);
+    // Not held while painting, which other threads help with.
+    let last = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((of, sprites)) = &*last()
+        && *of == leaves
+    {
+        return Arc::clone(sprites);
+    }
+    let sprites: Arc<[_]> =
+        (0..SPRITE_COUNT).into_par_iter().map(|index| paint_tree(index, leaves)).collect::<Vec<_>>().into();
+    *last() = Some((leaves, Arc::clone(&sprites)));
+    sprites
+}
+
 /// Paints tree number `index` with a share of its leaves, 0 to 1.
-pub(crate) fn paint_tree(index: u32, leaves: f32) -> TreeSprite {
+fn paint_tree(index: u32, leaves: f32) -> TreeSprite {
     let (preset, number) = TREES[index as usize % TREES.len()];
     let tree = Tree { number, leaves: CLUSTERS, ..Tree::default() };
     let skeleton = grow(&preset.kind(), &tree, 0).expect("presets grow");

@@ -4,10 +4,11 @@
 
 use glam::{Vec2, Vec3};
 use image::RgbaImage;
-use windfall_core::World;
 use windfall_core::scene::{Camera, Exposure, Tree, Weather};
+use windfall_core::{CompiledScene, World};
 
-use super::{Bench, SIZE, bench};
+use super::{Bench, SIZE, bench, bench_with};
+use crate::trees::SceneTrees;
 
 /// A bench that looks down on a rectangle of snow, which ends in the middle of the picture.
 fn snowy() -> (Bench, World) {
@@ -75,7 +76,7 @@ fn snow_stands_as_high_as_it_is_deep() {
 /// A bare tree against the ground is brighter where snow lies on it, and nothing else changes.
 #[test]
 fn snow_on_branches_is_white() {
-    let mut bench = bench(|scene| {
+    let mut bench = bench_with(|scene| {
         let size_m = Vec2::splat(12.0);
         scene.weather = Some(Weather { size_m, snow_mm_h: vec![(0.0, 0.0)], ..Weather::default() });
         scene.trees = vec![Tree { kind: "maple".into(), at_m: [0.0, 0.0], ..Tree::default() }];
@@ -85,6 +86,7 @@ fn snow_on_branches_is_white() {
             vertical_fov_deg: 40.0,
         };
         scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 };
+        SceneTrees::of(scene, CompiledScene::compile(scene).expect("valid").forest())
     });
     let world = World::build(&bench.scene).expect("valid");
     let mut laden = world.bed.clone();

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Paints bark: a tile of colour, height and grooves for every kind, which repeats without a seam.
 
+use std::sync::OnceLock;
+
 use glam::{Vec2, Vec3};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::BarkKind;
 use crate::random::Random;
@@ -24,6 +27,16 @@ struct Texel {
     color: Vec3,
     height: f32,
     scar: f32,
+}
+
+/// All kinds of bark in the order of [`BarkKind::ALL`], painted once for all renderers.
+pub(crate) fn painted_barks() -> &'static [Bark] {
+    static BARKS: OnceLock<Vec<Bark>> = OnceLock::new();
+    if BARKS.get().is_none() {
+        // Outside of the lock, as other threads help; another renderer may have been faster.
+        let _ = BARKS.set(BarkKind::ALL.into_par_iter().map(paint_bark).collect());
+    }
+    BARKS.get().map_or(&[], Vec::as_slice)
 }
 
 /// Paints a kind of bark.

@@ -4,9 +4,9 @@
 
 use windfall_wgpu::{BedColumn, BranchColumns};
 
-use super::bark_texture::{BARK_SIZE, paint_bark};
+use super::SceneTrees;
+use super::bark_texture::{BARK_SIZE, painted_barks};
 use super::records::TreeRecords;
-use super::{BarkKind, SceneTrees};
 use crate::gpu::pipeline::{FILTERABLE, buffer_entry, sampler_entry, texture_entry};
 use crate::gpu::upload;
 
@@ -40,8 +40,7 @@ impl BranchGroup {
                 column(7),
             ],
         });
-        let painted: Vec<_> = BarkKind::ALL.into_iter().map(paint_bark).collect();
-        let images: Vec<Vec<&[u8]>> = painted
+        let images: Vec<Vec<&[u8]>> = painted_barks()
             .iter()
             .flat_map(|bark| [&bark.surface, &bark.relief])
             .map(|mips| mips.iter().map(Vec::as_slice).collect())
