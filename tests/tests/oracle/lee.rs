@@ -248,7 +248,7 @@ fn leaves_gather_around_a_box() {
     scene.ground.surface_roughness_m = 0.0005;
     scene.ground.friction = 0.45;
     scene.ground.litter =
-        Some(Litter { size_m: [40.0, 28.0].into(), leaf_area_index: 0.25, ..Litter::default() });
+        Some(Litter { size_m: [40.0, 28.0].into(), leaf_area_index: 0.1, ..Litter::default() });
     let start = build(&scene);
     let end = after(&scene, 7200);
     let density = |world: &World, [from_m, to_m]: [f64; 2], [left_m, right_m]: [f64; 2]| {
@@ -275,7 +275,7 @@ fn leaves_gather_around_a_box() {
     let [band, foot] = [BAND_M, FOOT_M].map(|along| density(&end, along, [-0.5, 0.5]));
     println!("in the open: {open:.1} leaves per m², {before:.1} at the start");
     assert!(near > 1.5 * before, "{near} leaves per m² right behind, {before} at the start");
-    assert!(far > 10.0 && open < 0.1 * far, "{far} leaves per m² behind, {open} in the open");
+    assert!(far > 4.0 && open < 0.1 * far, "{far} leaves per m² behind, {open} in the open");
     assert!(
         foot < 0.7 * band && band > before,
         "{foot} leaves per m² at the foot, {band} in the band before it"
