@@ -221,6 +221,16 @@ fn a_changed_twin_is_noticed() {
     let edits = [
         ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
         ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
+        ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
+        ("wind/packed", "words.x << 21u", "words.x << 20u", "wind_unpack"),
+        ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull", "slide"),
+        ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)", "flatten_on"),
+        (
+            "terrain/ground",
+            "max(ground_relief(x, z), scene.water_relief_m)",
+            "ground_relief(x, z)",
+            "ground_relief",
+        ),
         ("motion/lookup", "after << 16u", "after << 15u", "motion_displacement"),
         (
             "leaf/record",
