@@ -407,12 +407,20 @@ impl Shaders {
 /// # Errors
 /// [`ShaderError::Wgsl`] with naga's message.
 pub(crate) fn compile_exact(source: &str) -> Result<Vec<u32>, ShaderError> {
+    use naga::compact::{KeepUnused, compact};
     use naga::valid::{Capabilities, ValidationFlags, Validator};
     let wgsl = |message: String| ShaderError::Wgsl(message);
-    let module = naga::front::wgsl::parse_str(source).map_err(|error| wgsl(error.emit_to_string(source)))?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
-        .validate(&module)
-        .map_err(|error| wgsl(error.emit_to_string(source)))?;
+    let mut module =
+        naga::front::wgsl::parse_str(source).map_err(|error| wgsl(error.emit_to_string(source)))?;
+    let validated = |module: &naga::Module| {
+        Validator::new(ValidationFlags::all(), Capabilities::all())
+            .validate(module)
+            .map_err(|error| wgsl(error.emit_to_string(source)))
+    };
+    // What is valid can be compacted: drivers may work long on functions that nobody calls.
+    validated(&module)?;
+    compact(&mut module, KeepUnused::No);
+    let info = validated(&module)?;
     let options =
         naga::back::spv::Options { lang_version: (1, 3), fake_missing_bindings: true, ..Default::default() };
     let words = naga::back::spv::write_vec(&module, &info, &options, None)
