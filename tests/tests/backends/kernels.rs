@@ -145,7 +145,6 @@ fn a_changed_kernel_is_noticed() {
     let synthesised = [
         ("leaf/fall", "before * part.decay", "before * (part.decay * 1.001)"),
         ("leaf/settle", "(1.0 - share) * scene.dt_s", "share * scene.dt_s"),
-        ("leaf/own", "sin_cos_half(heading_angle(heading))", "sin_cos_half(heading >> 15u)"),
         ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING) {", "state == STATE_ATTACHED) {"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
