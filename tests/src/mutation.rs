@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Parts of mutation tests, which change a line of WGSL and must see the comparison with the oracle fail. Nearly all that they take is the
-//! driver's work on shaders, kernel by kernel and simulator by simulator.
+//! driver's work on the kernels that have been changed.
 
 use std::sync::{Mutex, PoisonError};
 

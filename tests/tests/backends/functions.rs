@@ -19,6 +19,8 @@ use windfall_tests::strategies::{
 };
 use windfall_wgpu::{Gpu, Shaders};
 
+use crate::function_edits::EDITS;
+
 /// Cases in one dispatch; not a multiple of the workgroup size.
 const CASES: usize = 1234;
 /// Dispatches for each function.
@@ -194,19 +196,21 @@ const TOUCHES: [&str; 8] = [
     "collisions_of",
 ];
 
+/// Returns true if a function's results in a world can be compared: rounding decides about a strike, and if a body touches, and after that it
+/// goes another way.
+fn is_comparable(contract: Contract, function: &Function, world: &World) -> bool {
+    let is_loose = contract == Contract::Tolerant;
+    let touches = !world.bed.is_empty() && TOUCHES.contains(&function.name);
+    !(is_loose && (touches || STRIKES.contains(&function.name)))
+}
+
 #[test]
 fn functions_agree_on_every_adapter() {
     let worlds = [world(None), world(Some(bed())), obstructed()];
     let mut failures = Vec::new();
     for (gpu, contract) in adapter::contracts() {
         for function in functions::all() {
-            // Rounding decides about a strike, and if a body touches: after that it goes another way.
-            let is_decided = |world: &&World| {
-                contract == Contract::Exact
-                    || !STRIKES.contains(&function.name)
-                        && (world.bed.is_empty() || !TOUCHES.contains(&function.name))
-            };
-            let worlds = worlds.iter().filter(is_decided);
+            let worlds = worlds.iter().filter(|world| is_comparable(contract, function, world));
             if let Err(message) = check(&gpu, contract, &Shaders::default(), function, worlds) {
                 failures.push(format!("{} {contract}: {message}", gpu.info().name));
             }
@@ -218,202 +222,18 @@ fn functions_agree_on_every_adapter() {
 /// Mutation test: one constant or operator changed in one twin is noticed by the function that uses it.
 #[test]
 fn a_changed_twin_is_noticed() {
-    let edits = [
-        ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
-        ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
-        ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
-        ("wind/packed", "words.x << 21u", "words.x << 20u", "wind_unpack"),
-        ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull", "slide"),
-        ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)", "flatten_on"),
-        (
-            "terrain/ground",
-            "max(ground_relief(x, z), scene.water_relief_m)",
-            "ground_relief(x, z)",
-            "ground_relief",
-        ),
-        ("particle/fly", "air.y * lag", "air.y * way", "particle_fly"),
-        ("particle/birth", "among < step_block.births", "among + 1u < step_block.births", "birth_number"),
-        ("particle/birth", "max(max(a, b), c)", "max(a, b)", "shape_point"),
-        ("particle/draw", "131070", "131072", "spread_draw"),
-        (
-            "particle/force",
-            "squared = max(vec3_dot(toward, toward) + numbers.y",
-            "squared = max(vec3_dot(toward, toward)",
-            "force_pull",
-        ),
-        (
-            "particle/force",
-            "half, force_vector(first + 3u)",
-            "turned, force_vector(first + 3u)",
-            "force_turn",
-        ),
-        (
-            "particle/strike",
-            "leaving, closing * restitution, leaving",
-            "leaving, -closing * restitution, leaving",
-            "struck_velocity",
-        ),
-        ("particle/strike", "turn < MOST_STRIKES", "turn + 1u < MOST_STRIKES", "particle_contact"),
-        ("particle/strike", "(bend * 4.0) * height", "(bend * 2.0) * height", "bent_share"),
-        ("particle/nest", "let group = place / fan", "let group = place / (fan + 1u)", "nest_place"),
-        ("particle/nest", "first != 0u && age", "age", "nest_events"),
-        ("particle/nest", "turn = turn + first", "turn = turn + count", "nest_events"),
-        (
-            "particle/nest",
-            "/ steps;\n        let is_alive",
-            "/ steps + 1u;\n        let is_alive",
-            "nest_events",
-        ),
-        (
-            "particle/nest",
-            "parent.position - parent.velocity",
-            "parent.position + parent.velocity",
-            "nest_start",
-        ),
-        ("particle/nest", "event * NEST_SPACING", "event", "nest_place"),
-        (
-            "particle/local_space",
-            "flight.velocity - frame.start.velocity",
-            "flight.velocity",
-            "carried_flight",
-        ),
-        ("particle/local_space", "birth - motion.birth) >= 0", "birth - motion.birth) > 0", "carried_flight"),
-        ("particle/local_space", "cross(cross, across) *", "cross(across, cross) *", "frame_turn"),
-        ("particle/history", "/ run.every_steps;", "/ (run.every_steps + 1u);", "history_row"),
-        ("particle/history", "among * run.samples", "among", "history_row"),
-        ("terrain/snow", "words.x), cell.water)", "words.y), cell.water)", "snow_age"),
-        (
-            "leaf/own",
-            "sin_cos_half(heading_angle(heading))",
-            "sin_cos_half(heading >> 15u)",
-            "own_orientation",
-        ),
-        ("motion/lookup", "after << 16u", "after << 15u", "motion_displacement"),
-        (
-            "leaf/record",
-            "with_primitive(bits, 0u), is_spiral",
-            "with_primitive(bits, 1u), is_spiral",
-            "cone_offset",
-        ),
-        (
-            "leaf/cone_spiral",
-            "heading_angle(heading) * SWING",
-            "heading_angle(heading) + SWING",
-            "cone_offset",
-        ),
-        ("leaf/cone_spiral", "-(turn.x * radius)", "turn.x * radius", "cone_offset"),
-        ("leaf/cone_spiral", "inverse * 0.5, cone", "inverse * 0.6, cone", "cone_velocity"),
-        ("leaf/cone_spiral", "(cosine + 1.0) * 0.5", "(cosine + 1.0) * 0.4", "cone_velocity"),
-        ("leaf/own", "select(1.0, 0.0, end < start)", "1.0", "table_phase"),
-        ("leaf/own", "(outer - inner)", "(inner - outer)", "table_phase"),
-        ("leaf/fall", "vec3<u32>(SLOWEST_DRIFT_TWICE)", "vec3<u32>(2u * SLOWEST_DRIFT_TWICE)", "felt_drift"),
-        ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
-        ("wind/shelter", "word >> 16u", "word >> 15u", "wind_shelter"),
-        ("wind/shelter", "kw * shelter.cells_z", "kw * shelter.cells_x", "wind_shelter"),
-        ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
-        ("terrain/ground", "corners.w - corners.z)", "corners.z - corners.w)", "ground_relief"),
-        ("terrain/ground", "<< shift", "<< (shift - 1u)", "ground_relief"),
-        ("terrain/ground", "1.0 + up)", "2.0 - up)", "flatten_on"),
-        ("terrain/ground", "let west = corners.z", "let west = corners.w", "ground_slope"),
-        ("leaf/release", "<< 17u, extent", "<< 16u, extent", "release_place"),
-        ("arith/matrix", "a.off - b.off", "a.off + b.off", "sym3_sums"),
-        ("arith/matrix", "a.diagonal.z * PIVOT_SHARE", "a.diagonal.y * PIVOT_SHARE", "sym3_inverse"),
-        ("arith/matrix", "a.x.z + a.z.x", "a.x.z + a.x.z", "mat3_times"),
-        ("arith/quaternion", "y + y", "y + x", "quat_rotate_back"),
-        ("arith/quaternion", "TURN_ASIN_11 + TURN_ASIN_9", "TURN_ASIN_11 + TURN_ASIN_11", "quat_of_turn"),
-        ("tree/sway/load", "wind, axis)", "wind, wind)", "segment_drag"),
-        ("tree/sway/load", "inertia_along - across", "inertia_along + across", "segment_load"),
-        ("tree/sway/inward", "ahead + STOP_DAMPING", "ahead - STOP_DAMPING", "joint_spring"),
-        ("tree/sway/inward", "body.base - parent.base", "body.base + parent.base", "velocity_products"),
-        ("tree/sway/inward", "share, whole.coupling", "share, sym3_rows(spring)", "joint_response"),
-        ("tree/sway/twig", "mass_across - lever", "mass_across + lever", "twig_response"),
-        ("tree/sway/twig", "- vec3_cross(axis, carried", "+ vec3_cross(axis, carried", "twig_acceleration"),
-        ("tree/sway/inward", "cross(arm, body.force)", "cross(body.force, arm)", "articulated_shift"),
-        ("tree/sway/outward", "- mat3_times", "+ mat3_times", "joint_acceleration"),
-        ("tree/sway/outward", "inverse * JOINT_LIMIT", "inverse * JOINT_LIMIT_COSINE", "joint_step"),
-        ("tree/sway/outward", "cross(parent.spin, arm)", "cross(arm, parent.spin)", "segment_place"),
-        ("flight/body", "(y - z) * inv_inertia.x", "(y + z) * inv_inertia.x", "body_of"),
-        ("flight/rates", "q * (DRAG_RISE - q", "q * (DRAG_RISE + q", "flight_rates"),
-        (
-            "flight/rates",
-            "added_momentum * turn.x);\n    let munk",
-            "added_momentum * turn.y);\n    let munk",
-            "flight_rates",
-        ),
-        ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
-        ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
-        ("leaf/fly", "substeps.share * scene", "substeps.count * scene", "flight_advance"),
-        ("terrain/litter", "column - 1u <", "column <", "litter_shares"),
-        ("terrain/litter", "right * near", "left * near", "litter_shares"),
-        ("terrain/litter", "corners.w - corners.z", "corners.w - corners.y", "litter_height"),
-        ("terrain/litter", "2.0 - above_ground", "2.1 - above_ground", "litter_height"),
-        ("terrain/ground", "direction.y * reach", "direction.x * reach", "ground_gradient"),
-        ("flight/contact", "(along * along) * normal.z", "(along * across) * normal.z", "support"),
-        ("flight/contact", "drag * -1.0", "drag * -0.9", "flight_contact"),
-        ("flight/contact", "push < weight + weight", "push < weight", "flight_contact"),
-        ("flight/contact", "above * up - ", "above - ", "flight_contact"),
-        ("solid/shape", "beyond_z, 0.0)", "beyond_y, 0.0)", "solid_distance"),
-        ("solid/distance", "place - solid.center)", "solid.center - place)", "solid_distance"),
-        ("solid/hull", "farthest.distance_m < distance", "farthest.distance_m < -distance", "solid_distance"),
-        ("solid/grid", "y.node) * counts.x", "y.node) * counts.y", "solid_distance"),
-        ("solid/grid", "rise_near + (rise_far", "rise_far + (rise_far", "solid_distance"),
-        ("solid/near", "line * scene", "column * scene", "solids_cell"),
-        ("solid/near", "bound * bound", "bound * reach", "may_meet_solids_within"),
-        ("flight/strike", "motion.velocity - along", "motion.velocity", "strike_solids"),
-        ("flight/strike", "radius * reach_share", "radius", "first_strike"),
-        ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
-        ("wind/pile_shadow", "upwind - (here", "upwind - 2.0 * (here", "wind_behind_piles"),
-        ("wind/plume", "growth * 0.5 + widening", "growth + widening", "wind_plume"),
-        ("wind/plume", "1.0 - off * 4.0", "1.0 - off * 3.0", "plume_puff"),
-        ("wind/plume", "passing * (along * across)", "passing * (along * along)", "wind_plume"),
-        ("wind/plume", "* inverse_cube * PLUME_ABOVE_K", "* PLUME_ABOVE_K", "plume_warmth"),
-        ("wind/plume", "bitcast<f32>(words.z)", "bitcast<f32>(words.y)", "plume_warmth"),
-        (
-            "tree/branch_snow",
-            "units + (line % CROWN_CELLS)",
-            "units + 1u + (line % CROWN_CELLS)",
-            "crown_part",
-        ),
-        ("tree/branch_snow", "held - shed + caught", "held - shed", "branch_round"),
-        ("terrain/snow", "inner + u32(inner == 0u)", "inner + u32(inner == 4u)", "snow_cell"),
-        ("terrain/snow", "column + kind - 2u", "column + kind - 1u", "snow_pair"),
-        ("terrain/snow", "way_m * snow_repose", "way_m + snow_repose", "snow_slide"),
-        ("terrain/snow", "cell.water - min(round_at_random", "cell.depth - min(round_at_random", "snow_age"),
-        ("terrain/snow", "speed * speed - lifts", "speed - lifts", "snow_drift"),
-        ("terrain/snow", "snow.z * (far - near)", "snow.x * (far - near)", "snow_height"),
-        (
-            "particle/step",
-            "select(none, width, high < place)",
-            "select(none, width, place < high)",
-            "is_outside",
-        ),
-        ("arith/math", "1.2 - (fifth * r2)", "1.2 - (fifth * r1)", "inverse_fifth_root"),
-        ("leaf/burn", "way * (1.0 - way)", "way * way", "leaf_rise"),
-        ("leaf/burn", "heat - scene.burns", "heat + scene.burns", "leaf_rise"),
-        ("leaf/burn", "place.y, place.z + wind.z", "place.y, place.z - wind.z", "leaf_heat_release"),
-        ("leaf/burn", ">> FIRE_FOLLOWS", ">> FIRE_WORDS", "fire_words"),
-        ("wind/slipstream", "1.0 - inverse * stream.drag_m2", "1.0 - stream.drag_m2", "wind_slipstream"),
-        ("leaf/air_cell", "layer * 19349663u", "layer * 19349661u", "own_sums"),
-        ("leaf/collide", "number + 0.5", "number", "own_sums"),
-        ("leaf/collide", "energy - vec3_dot(velocity, velocity)", "energy", "collisions_of"),
-        ("leaf/collide", "leaves * reciprocal(others)", "others * reciprocal(leaves)", "collisions_of"),
-        ("flight/rates", "munk * flow.z, lever.y + twist", "munk * flow.x, lever.y + twist", "still_load"),
-        ("leaf/at_rest", "lift + lever", "lift - lever", "wake_square"),
-        ("leaf/lie", "raise_spread + 1u", "raise_spread + 9u", "lying_tilt"),
-        ("leaf/fly", "touch_steps(bits) >=", "touch_steps(bits) >", "flight_ends"),
-        ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
-        ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
-        ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_twig_pose"),
-        ("leaf/carry", "0u - (step_block", "1u - (step_block", "leaf_hangs"),
-        ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_sample_air"),
-    ];
     let worlds = [world(None), world(Some(bed())), obstructed()];
     for (gpu, contract) in adapter::contracts() {
-        two_at_a_time(&gpu, edits.into_iter(), |gpu, (module, old, new, name)| {
+        two_at_a_time(&gpu, EDITS.into_iter(), |gpu, (module, old, new, name)| {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
             let function =
                 functions::all().find(|function| function.name == name).expect("a function of the table");
-            let noticed = check(gpu, contract, &shaders, function, &worlds);
+            let worlds = worlds.iter().filter(|world| is_comparable(contract, function, world));
+            let worlds: Vec<_> = worlds.collect();
+            if worlds.is_empty() {
+                return;
+            }
+            let noticed = check(gpu, contract, &shaders, function, worlds);
             let noticed = noticed.err().unwrap_or_else(|| panic!("{module}: '{new}' goes unnoticed"));
             assert!(noticed.contains(": input "), "{name} differs on {}: {noticed}", gpu.info().name);
         });

@@ -6,6 +6,7 @@
 mod device;
 mod embedding;
 mod flight;
+mod function_edits;
 mod functions;
 mod kernels;
 mod litter;
