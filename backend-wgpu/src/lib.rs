@@ -23,6 +23,7 @@ mod columns;
 mod exact;
 mod forest;
 mod gpu;
+mod kernel_id;
 mod lists;
 mod particles;
 mod pipelines;
@@ -36,7 +37,8 @@ pub use columns::{
 };
 pub use exact::decorate_no_contraction;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
+pub use kernel_id::KernelId;
 pub use prelude::{WORKGROUP_SIZE, leaf_wgsl, particle_wgsl};
-pub use shaders::{KernelId, ShaderError, Shaders};
+pub use shaders::{ShaderError, Shaders};
 pub use simulator::{StateRequest, StatsRequest, WgpuOptions, WgpuSimulator};
 pub use wgpu;

@@ -6,12 +6,12 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
-use windfall_core::scene::{Particles, SwayScheme};
-use windfall_core::{CompiledScene, Contract, SimError};
+use windfall_core::{Contract, SimError};
 
 use crate::gpu::Gpu;
+use crate::kernel_id::KernelId;
 use crate::prelude::WORKGROUP_SIZE;
-use crate::shaders::{KernelId, Shaders, compile_exact};
+use crate::shaders::{Shaders, compile_exact};
 
 /// A group of bindings that kernels share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,62 +152,6 @@ impl KernelId {
                 &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::WrittenBuffer]
             }
             Self::ResolveEvents | Self::Fly => &[GroupLayout::Leaves, GroupLayout::ReadBuffer],
-        }
-    }
-
-    /// The kernels that step and count a world of this scene.
-    pub fn needed(compiled: &CompiledScene) -> Vec<Self> {
-        let mut kernels =
-            vec![Self::ListActive, Self::SampleAir, Self::Advance, Self::ResolveEvents, Self::Measure];
-        if compiled.block().has_bodies() {
-            kernels.push(Self::Fly);
-        }
-        if compiled.block().has_living_litter() {
-            kernels.extend([Self::CheckCover, Self::StackLitter]);
-            kernels.extend([Self::GatherCollisions, Self::Collide, Self::ClearCollisions]);
-            if !compiled.block().is_calm() {
-                kernels.push(Self::WakeLying);
-            }
-            if compiled.block().has_movers() {
-                kernels.push(Self::PushLying);
-            }
-        }
-        if compiled.block().leaves_burn() {
-            kernels.extend([Self::GatherHeat, Self::BurnLeaves, Self::SettleFires]);
-        }
-        if compiled.scene().particles.iter().any(Particles::is_on_leaves) {
-            kernels.push(Self::FollowLeaves);
-        }
-        if compiled.block().has_snow() {
-            kernels.extend([Self::LandFlakes, Self::StepSnow]);
-            if compiled.block().snow.branches != 0 {
-                kernels.push(Self::StepBranchSnow);
-            }
-        }
-        if compiled.scene().particle_count() > 0 {
-            kernels.push(Self::StepParticles);
-        }
-        if compiled.block().has_mutual() {
-            kernels.push(Self::PullParticles);
-        }
-        if !compiled.carriers().is_empty() {
-            kernels.push(Self::CarryForces);
-        }
-        if !compiled.histories().is_empty() {
-            kernels.push(Self::KeepHistory);
-        }
-        if !compiled.forest().is_empty() {
-            kernels.extend([Self::Carry, Self::SwayCoast]);
-            kernels.extend(Self::of_scheme(compiled.scene().sway));
-        }
-        kernels
-    }
-
-    /// The kernels that move trees by a scheme, inward and outward.
-    pub(crate) fn of_scheme(scheme: SwayScheme) -> [Self; 2] {
-        match scheme {
-            SwayScheme::Articulated => [Self::SwayInward, Self::SwayOutward],
-            SwayScheme::Quigley | SwayScheme::OliapuramKumar => [Self::SwayGather, Self::SwayFollow],
         }
     }
 }
@@ -377,5 +321,20 @@ mod tests {
             let count = slots.filter(|slot| matches!(slot, Slot::Read | Slot::Write)).count();
             assert!(count <= 8, "{} has {count}", kernel.name());
         }
+    }
+
+    /// Another simulator on the device gets the same pipeline, one with another text its own.
+    #[test]
+    fn a_device_compiles_a_kernel_once() {
+        let gpu = Gpu::request(None).expect("a graphics adapter; software Vulkan will do");
+        let prepared = |shaders: Shaders| {
+            let mut pipelines = Pipelines::new(&gpu, shaders, gpu.contract()).expect("layouts");
+            pipelines.prepare(&gpu, [KernelId::ClearCollisions]).expect("it compiles");
+            pipelines.kernel(KernelId::ClearCollisions).clone()
+        };
+        let first = prepared(Shaders::default());
+        assert_eq!(first, prepared(Shaders::default()), "the same text");
+        let edited = Shaders::default().edited("kernels/clear_collisions", "fn ", "fn  ");
+        assert_ne!(first, prepared(edited.expect("it has a function")), "another text");
     }
 }

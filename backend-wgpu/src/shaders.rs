@@ -7,144 +7,8 @@ use std::collections::BTreeSet;
 use thiserror::Error;
 
 use crate::exact::decorate_no_contraction;
+use crate::kernel_id::KernelId;
 use crate::{lists, prelude};
-
-/// The compute kernels; one name for file, entry point and twin. [`KernelId::ListActive`] has none: the CPU notes idle units as it steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum KernelId {
-    /// Lists the leaves that the steps of a window can change.
-    ListActive,
-    /// Adds bodies to the cells of the air that they are in.
-    GatherCollisions,
-    /// Lets them collide with the others there.
-    Collide,
-    /// Clears these cells.
-    ClearCollisions,
-    /// Samples the air for the leaves whose turn it is.
-    SampleAir,
-    /// Moves the leaves without an event through one step.
-    Advance,
-    /// Moves the bodies among them.
-    Fly,
-    /// Moves the others.
-    ResolveEvents,
-    /// Wakes leaves in the litter that are in the way of solid parts.
-    PushLying,
-    /// Sees what lies on and beneath leaves in the litter.
-    CheckCover,
-    /// Samples the wind at leaves that lie in the litter.
-    WakeLying,
-    /// Makes the changes of the litter that leaves wait for.
-    StackLitter,
-    /// Counts leaves by state and motion.
-    Measure,
-    /// Inward pass of the articulated-body algorithm over trees, level by level: responses of joints.
-    SwayInward,
-    /// Outward pass, level by level: accelerations of segments, and the integration of their joints.
-    SwayOutward,
-    /// Inward pass of the schemes that step joints one by one: composite bodies.
-    SwayGather,
-    /// Outward pass of these schemes: the integration of joints.
-    SwayFollow,
-    /// Moves segments on between two solutions of their joints.
-    SwayCoast,
-    /// Carries leaves along with their twigs, and breaks petioles.
-    Carry,
-    /// Moves particles through one step.
-    StepParticles,
-    /// Sums the attractions of particles by one another.
-    PullParticles,
-    /// Places the forces that particles carry.
-    CarryForces,
-    /// Samples the ways of particles.
-    KeepHistory,
-    /// Adds the heat of burning leaves to cells of the air.
-    GatherHeat,
-    /// Heats leaves, and lets those that are lit burn on.
-    BurnLeaves,
-    /// Lets fires follow the leaves that feed them.
-    SettleFires,
-    /// Lets particles follow burning leaves.
-    FollowLeaves,
-    /// Gives flakes that landed to the snow.
-    LandFlakes,
-    /// Lets branches catch snow and lose it.
-    StepBranchSnow,
-    /// Lets snow slide, settle and melt.
-    StepSnow,
-}
-
-impl KernelId {
-    /// All kernels.
-    pub const ALL: [Self; 30] = [
-        Self::ListActive,
-        Self::GatherCollisions,
-        Self::Collide,
-        Self::ClearCollisions,
-        Self::SampleAir,
-        Self::Advance,
-        Self::Fly,
-        Self::ResolveEvents,
-        Self::PushLying,
-        Self::CheckCover,
-        Self::WakeLying,
-        Self::StackLitter,
-        Self::Measure,
-        Self::SwayInward,
-        Self::SwayOutward,
-        Self::SwayGather,
-        Self::SwayFollow,
-        Self::SwayCoast,
-        Self::Carry,
-        Self::StepParticles,
-        Self::PullParticles,
-        Self::CarryForces,
-        Self::KeepHistory,
-        Self::GatherHeat,
-        Self::BurnLeaves,
-        Self::SettleFires,
-        Self::FollowLeaves,
-        Self::LandFlakes,
-        Self::StepBranchSnow,
-        Self::StepSnow,
-    ];
-
-    /// Name of the file and of the entry point.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::ListActive => "list_active",
-            Self::GatherCollisions => "gather_collisions",
-            Self::Collide => "collide",
-            Self::ClearCollisions => "clear_collisions",
-            Self::SampleAir => "sample_air",
-            Self::Advance => "advance",
-            Self::Fly => "fly",
-            Self::ResolveEvents => "resolve_events",
-            Self::PushLying => "push_lying",
-            Self::CheckCover => "check_cover",
-            Self::WakeLying => "wake_lying",
-            Self::StackLitter => "stack_litter",
-            Self::Measure => "measure",
-            Self::SwayInward => "sway_inward",
-            Self::SwayOutward => "sway_outward",
-            Self::SwayGather => "sway_gather",
-            Self::SwayFollow => "sway_follow",
-            Self::SwayCoast => "sway_coast",
-            Self::Carry => "carry",
-            Self::StepParticles => "step_particles",
-            Self::PullParticles => "pull_particles",
-            Self::CarryForces => "carry_forces",
-            Self::KeepHistory => "keep_history",
-            Self::GatherHeat => "gather_heat",
-            Self::BurnLeaves => "burn_leaves",
-            Self::SettleFires => "settle_fires",
-            Self::FollowLeaves => "follow_leaves",
-            Self::LandFlakes => "land_flakes",
-            Self::StepBranchSnow => "step_branch_snow",
-            Self::StepSnow => "step_snow",
-        }
-    }
-}
 
 /// A shader that does not compile: a mistake of ours, or of an edit.
 #[derive(Debug, Error)]
@@ -426,4 +290,36 @@ pub(crate) fn compile_exact(source: &str) -> Result<Vec<u32>, ShaderError> {
     let words = naga::back::spv::write_vec(&module, &info, &options, None)
         .map_err(|error| wgsl(error.to_string()))?;
     Ok(decorate_no_contraction(&words))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edit_in_one_kernel_is_seen_by_it_alone() {
+        let (whole, sample, measure) = (Shaders::default(), KernelId::SampleAir, KernelId::Measure);
+        let text = |shaders: &Shaders, kernel| shaders.kernel(kernel).expect("it composes");
+        let edit = |kernel, name| whole.clone().edited_in(kernel, name, "fn ", "fn  ");
+        let edited = edit(sample, "leaf/record").expect("it imports it");
+        assert_ne!(text(&edited, sample), text(&whole, sample), "the kernel");
+        assert_eq!(text(&edited, measure), text(&whole, measure), "another that imports the module");
+        assert!(
+            text(&whole, measure)
+                .contains(whole.text("leaf/record").expect("a module").lines().last().expect("a line"))
+        );
+        assert!(edit(measure, "tree/sway/inward").is_none(), "a module that it does not import");
+        assert!(whole.clone().edited_in(sample, "leaf/record", "no such line", "").is_none(), "a line");
+    }
+
+    #[test]
+    fn functions_that_nobody_calls_are_not_compiled() {
+        let kernel = "@group(0) @binding(0) var<storage, read_write> out: array<u32>;
+            @compute @workgroup_size(1) fn fill() { out[0] = 7u; }\n";
+        let idle = "fn idle(x: u32) -> u32 { return x * 3u + 1u; }\n";
+        let alone = compile_exact(kernel).expect("it is valid");
+        assert_eq!(alone, compile_exact(&(idle.to_owned() + kernel)).expect("it is valid"));
+        let broken = "fn idle(x: u32) -> u32 { return x * 3.0; }\n";
+        assert!(compile_exact(&(broken.to_owned() + kernel)).is_err(), "mistakes in them are still found");
+    }
 }

@@ -22,10 +22,11 @@ use crate::buffers::{buffer, group, table};
 use crate::columns::{WorldBuffers, WorldColumns};
 use crate::forest::ForestBuffers;
 use crate::gpu::{Gpu, describe_adapter};
+use crate::kernel_id::KernelId;
 use crate::particles::ParticleBindings;
 use crate::pipelines::{GroupLayout, Pipelines};
 use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
-use crate::shaders::{KernelId, Shaders};
+use crate::shaders::Shaders;
 
 /// Bytes of the largest record of a leaf column.
 const LARGEST_RECORD: u64 = 16;

@@ -7,9 +7,9 @@ use windfall_core::store::StoreSize;
 use windfall_core::{Clock, SimError, Stats, World};
 
 use super::WgpuSimulator;
+use crate::kernel_id::KernelId;
 use crate::prelude::WORKGROUP_SIZE;
 use crate::readback::{Readback, Run};
-use crate::shaders::KernelId;
 
 /// The state after the steps that had been submitted when it was requested.
 #[derive(Debug)]

@@ -10,10 +10,10 @@ use windfall_core::particle::ParticleRun;
 
 use super::WgpuSimulator;
 use crate::buffers::{group, uniform};
+use crate::kernel_id::KernelId;
 use crate::particles::WINDOW_STEP;
 use crate::pipelines::GroupLayout;
 use crate::prelude::WORKGROUP_SIZE;
-use crate::shaders::KernelId;
 
 /// Bindings of the snow of a world.
 #[derive(Debug)]

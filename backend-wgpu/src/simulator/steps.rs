@@ -9,11 +9,11 @@ use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
 use super::WgpuSimulator;
 use super::pages::List;
 use crate::buffers::buffer;
+use crate::kernel_id::KernelId;
 use crate::lists::{
     ACTIVE_HEAD_BYTES, ALL_GROUPS, SAMPLING_GROUPS, empty_active, event_groups, window_steps,
 };
 use crate::prelude::WORKGROUP_SIZE;
-use crate::shaders::KernelId;
 
 /// Steps per compute pass: their blocks are copied at once.
 pub(super) const STEPS_PER_PASS: u32 = 32;
