@@ -240,4 +240,17 @@ mod tests {
         let (bare, leafy) = (texels.len(), drawn(&leafy.surface[0]).len());
         assert!(bare > 3000 && bare < leafy / 3, "{bare} texels bare, {leafy} in leaf");
     }
+
+    /// What is kept of one season is not taken for another.
+    #[test]
+    fn kept_trees_are_of_the_season_asked_for() {
+        for leaves in [0.0, 1.0, 0.0, 0.0] {
+            let kept = painted_trees(leaves);
+            assert_eq!(kept.len(), SPRITE_COUNT as usize, "all of them");
+            assert!(
+                kept[1].surface == paint_tree(1, leaves).surface,
+                "with a share of {leaves} of their leaves"
+            );
+        }
+    }
 }
