@@ -4,35 +4,20 @@
 
 use windfall_core::device::leaf::record::flies;
 
-use windfall_core::{Contract, Simulator, World};
-use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
+use windfall_core::{Contract, World};
+use windfall_cpu::{CpuOptions, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
 use windfall_tests::strategies::flying_scene;
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+use windfall_wgpu::WgpuOptions;
+
+use crate::stepped::{exact, exact_adapters, on_cpu, on_gpu};
 
 const LEAVES: u32 = 4000;
 const STEPS: u32 = 1000;
 
 fn world() -> World {
     World::build(&flying_scene(1854, LEAVES, 5.0, 1.0 / 60.0)).expect("the flying scene is valid")
-}
-
-fn oracle(world: &World, options: CpuOptions, steps: u32) -> World {
-    let mut result = world.clone();
-    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
-    simulator.step(steps).expect("the CPU steps");
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn candidate(gpu: &Gpu, world: &World, options: &WgpuOptions, steps: u32) -> World {
-    let mut result = world.clone();
-    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
-    simulator.step(steps).expect("it steps");
-    simulator.read_state(&mut result).expect("same size");
-    assert_eq!(simulator.stats().expect("counts"), result.stats(), "counts of the device");
-    result
 }
 
 fn bodies(world: &World) -> usize {
@@ -42,16 +27,12 @@ fn bodies(world: &World) -> usize {
 #[test]
 fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
     let world = world();
-    let oracle = oracle(&world, CpuOptions::default(), STEPS);
+    let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
     let stats = oracle.stats();
     assert!(bodies(&world) > 300 && bodies(&oracle) > 300, "bodies fly: {stats:?}");
     assert!(stats.leaves.resting > 500 && stats.leaves.broken == 0, "and land: {stats:?}");
-    for (gpu, contract) in adapter::contracts() {
-        if contract != Contract::Exact {
-            continue;
-        }
-        let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-        let candidate = candidate(&gpu, &world, &options, STEPS);
+    for gpu in exact_adapters() {
+        let candidate = on_gpu(&gpu, &world, &exact(None), &[STEPS]);
         let found = difference(&oracle, &candidate);
         assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
         assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
@@ -61,11 +42,11 @@ fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
 #[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
     let world = world();
-    let plain = oracle(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
+    let plain = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
     for simd in Simd::available() {
         for threads in [1, 3] {
             let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
-            let found = oracle(&world, options, 300);
+            let found = on_cpu(&world, options, 300);
             assert_eq!(found.state_hash(), plain.state_hash(), "{simd:?} on {threads} threads");
         }
     }
@@ -75,14 +56,14 @@ fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
 #[test]
 fn under_the_tolerant_contract_the_statistics_agree() {
     let world = world();
-    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let expected = on_cpu(&world, CpuOptions::default(), STEPS);
     let height = |world: &World| {
         let flying = world.leaves.place.iter().filter(|place| flies(place.bits));
         flying.map(|place| f64::from(place.position[1])).sum::<f64>() / bodies(world) as f64
     };
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
-        let found = candidate(&gpu, &world, &options, STEPS);
+        let found = on_gpu(&gpu, &world, &options, &[STEPS]);
         let (a, b) = (found.stats(), expected.stats());
         let off = a.leaves.resting.abs_diff(b.leaves.resting);
         assert!(off < 60, "{}: {} rest, expected {}", gpu.info().name, a.leaves.resting, b.leaves.resting);

@@ -2,45 +2,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Living litter: the same bits on CPU and GPU, and heights that are what lies there.
 
+use windfall_core::World;
 use windfall_core::device::leaf::record::{lies, lying_volume};
 use windfall_core::scene::Scene;
-use windfall_core::{Contract, Simulator, World};
-use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
-use windfall_tests::adapter;
+use windfall_cpu::{CpuOptions, Simd};
 use windfall_tests::compare::difference;
 use windfall_tests::strategies::{
     burning_scene, hilly_scene, littered_scene, obstructed_scene, pond_scene, wooded_scene,
 };
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+
+use crate::stepped::{exact, exact_adapters, on_cpu, on_gpu};
 
 const LEAVES: u32 = 3000;
 const STEPS: u32 = 1000;
 
 fn world() -> World {
     World::build(&littered_scene(77, LEAVES, 3.0, 1.0 / 60.0)).expect("the littered scene is valid")
-}
-
-fn oracle(world: &World, options: CpuOptions, steps: u32) -> World {
-    let mut result = world.clone();
-    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
-    simulator.step(steps).expect("the CPU steps");
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn candidate(gpu: &Gpu, world: &World, page_leaves: Option<u32>, batches: &[u32]) -> World {
-    let mut result = world.clone();
-    let options = WgpuOptions { contract: Some(Contract::Exact), page_leaves, ..WgpuOptions::default() };
-    let mut simulator = WgpuSimulator::new(gpu, world, &options).expect("the device takes the world");
-    for steps in batches {
-        simulator.step(*steps).expect("it steps");
-    }
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn exact_adapters() -> impl Iterator<Item = Gpu> {
-    adapter::contracts().into_iter().filter(|(_, contract)| *contract == Contract::Exact).map(|(gpu, _)| gpu)
 }
 
 /// Steps a world on every adapter a thousand times at once, as `expected` has been, and less often in portions.
@@ -52,13 +29,13 @@ fn same_on_devices(world: &World, expected: &World) {
 /// Steps a world on every adapter in portions of any length, with small pages.
 fn same_in_portions(world: &World) {
     let portions = [1, 40, 7, 72];
-    let expected = oracle(world, CpuOptions::default(), portions.iter().sum());
+    let expected = on_cpu(world, CpuOptions::default(), portions.iter().sum());
     same_after(world, Some(4096), &portions, &expected);
 }
 
 fn same_after(world: &World, page_leaves: Option<u32>, batches: &[u32], expected: &World) {
     for gpu in exact_adapters() {
-        let found = candidate(&gpu, world, page_leaves, batches);
+        let found = on_gpu(&gpu, world, &exact(page_leaves), batches);
         let apart = difference(expected, &found);
         assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
         assert_eq!(expected.state_hash(), found.state_hash(), "{}", gpu.info().name);
@@ -78,7 +55,7 @@ fn sums(world: &World) -> (u64, u64) {
 #[test]
 fn a_thousand_steps_of_living_litter_are_equal_to_the_bit() {
     let world = world();
-    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let expected = on_cpu(&world, CpuOptions::default(), STEPS);
     let stats = expected.litter_stats().expect("there is litter");
     assert!(stats.lying > 500 && stats.awake > 100 && stats.woken > 1000, "{stats:?}");
     same_on_devices(&world, &expected);
@@ -94,12 +71,12 @@ fn every_preset_of_living_litter_is_equal_to_the_bit() {
     for (preset, before) in SHOWS {
         let scene = Scene::preset(preset).expect("a preset");
         let start = World::build(&scene).expect("a preset can be built");
-        let world = oracle(&start, CpuOptions::default(), before);
-        let expected = oracle(&world, CpuOptions::default(), 12);
+        let world = on_cpu(&start, CpuOptions::default(), before);
+        let expected = on_cpu(&world, CpuOptions::default(), 12);
         let stats = expected.litter_stats().expect("there is litter");
         assert!(stats.awake > 20, "{preset}: {stats:?}");
         for gpu in exact_adapters() {
-            let found = candidate(&gpu, &world, None, &[12]);
+            let found = on_gpu(&gpu, &world, &exact(None), &[12]);
             let apart = difference(&expected, &found);
             assert!(apart.is_none(), "{} in {preset}: {apart:?}", gpu.info().name);
             assert_eq!(expected.state_hash(), found.state_hash(), "{} in {preset}", gpu.info().name);
@@ -116,11 +93,11 @@ fn hills_and_trees_with_litter_are_equal_to_the_bit() {
     let scenes: [Scene; 2] = [hilly_scene(littered), wooded];
     for scene in scenes {
         let world = World::build(&scene).expect("valid");
-        let expected = oracle(&world, CpuOptions::default(), 400);
+        let expected = on_cpu(&world, CpuOptions::default(), 400);
         let stats = expected.litter_stats().expect("there is litter");
         assert!(stats.lying > 50 && stats.woken > 100, "{stats:?}");
         for gpu in exact_adapters() {
-            let apart = difference(&expected, &candidate(&gpu, &world, None, &[400]));
+            let apart = difference(&expected, &on_gpu(&gpu, &world, &exact(None), &[400]));
             assert!(apart.is_none(), "{} in {}: {apart:?}", gpu.info().name, scene.name);
         }
     }
@@ -129,7 +106,7 @@ fn hills_and_trees_with_litter_are_equal_to_the_bit() {
 #[test]
 fn leaves_among_solid_things_are_equal_to_the_bit() {
     let world = World::build(&obstructed_scene(80, LEAVES, 0.6, 1.0 / 60.0)).expect("valid");
-    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let expected = on_cpu(&world, CpuOptions::default(), STEPS);
     let stats = expected.litter_stats().expect("there is litter");
     assert!(stats.held > 10 && stats.woken > 100, "{stats:?}");
     same_on_devices(&world, &expected);
@@ -138,7 +115,7 @@ fn leaves_among_solid_things_are_equal_to_the_bit() {
 #[test]
 fn burning_leaves_are_equal_to_the_bit() {
     let world = World::build(&burning_scene(83, 600, 0.7, 1.0 / 60.0)).expect("valid");
-    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let expected = on_cpu(&world, CpuOptions::default(), STEPS);
     let stats = expected.burn_stats().expect("leaves burn");
     assert!(stats.burning > 50 && stats.burnt > 100, "{stats:?}");
     let [glow, embers] = [0, 1].map(|number| expected.particle_stats()[number].clone());
@@ -147,7 +124,7 @@ fn burning_leaves_are_equal_to_the_bit() {
     let [_, fire, ..] = fed.fires_mut(expected.compiled.block()) else { panic!("a fire for each plume") };
     assert!(fire[0] > 500, "leaves feed the second fire: {fire:?}");
     for (threads, simd) in [(Some(1), None), (Some(3), Some(Simd::Scalar))] {
-        let found = oracle(&world, CpuOptions { threads, simd }, STEPS);
+        let found = on_cpu(&world, CpuOptions { threads, simd }, STEPS);
         assert_eq!(expected.state_hash(), found.state_hash(), "{threads:?} threads, {simd:?}");
     }
     // Embers would need a window from the first leaf on.
@@ -161,7 +138,7 @@ fn burning_leaves_are_equal_to_the_bit() {
 #[test]
 fn leaves_on_a_pond_are_equal_to_the_bit() {
     let world = World::build(&pond_scene(82, LEAVES, 3.0, 1.0 / 60.0)).expect("valid");
-    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let expected = on_cpu(&world, CpuOptions::default(), STEPS);
     let stats = expected.litter_stats().expect("there is litter");
     assert!(stats.afloat > 100 && stats.sunk > 100 && stats.lying > 100, "{stats:?}");
     same_on_devices(&world, &expected);
@@ -178,11 +155,11 @@ fn every_instruction_set_and_number_of_threads_gives_the_same_litter() {
 
 /// Steps a world in every way that the CPU has.
 fn same_litter_everywhere(world: &World) {
-    let plain = oracle(world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
+    let plain = on_cpu(world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
     for simd in Simd::available() {
         for threads in [1, 3] {
             let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
-            let found = oracle(world, options, 300);
+            let found = on_cpu(world, options, 300);
             assert_eq!(found.state_hash(), plain.state_hash(), "{simd:?} on {threads} threads");
         }
     }
@@ -197,7 +174,7 @@ fn heights_are_what_lies_there_to_the_unit() {
     let (heights, volumes) = sums(&world);
     assert!(heights > 0 && heights == volumes, "before: {heights} of {volumes}");
     for step in 0..60 {
-        world = oracle(&world, CpuOptions::default(), 10);
+        world = on_cpu(&world, CpuOptions::default(), 10);
         let (heights, volumes) = sums(&world);
         assert_eq!(heights, volumes, "after {} steps", 10 * step + 10);
     }

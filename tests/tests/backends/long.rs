@@ -10,30 +10,15 @@ use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
 use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene, winding_scene};
 use windfall_tests::{adapter, suite};
-use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
+use windfall_wgpu::{Shaders, WgpuOptions, WgpuSimulator};
+
+use crate::stepped::{exact, exact_adapters, on_cpu, on_gpu};
 
 const LEAVES: u32 = 10_000;
 const STEPS: u32 = 1000;
 
 fn world() -> World {
     World::build(&varied_scene(2015, LEAVES, 3.0, 1.0 / 60.0)).expect("the varied scene is valid")
-}
-
-fn oracle(world: &World) -> World {
-    let mut result = world.clone();
-    let mut simulator = CpuSimulator::new(world, CpuOptions::default()).expect("threads start");
-    simulator.step(STEPS).expect("the CPU steps");
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn candidate(gpu: &Gpu, world: &World, options: &WgpuOptions) -> World {
-    let mut result = world.clone();
-    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
-    simulator.step(STEPS).expect("it steps");
-    simulator.read_state(&mut result).expect("same size");
-    assert_eq!(simulator.stats().expect("counts"), result.stats(), "counts of the device");
-    result
 }
 
 fn is_lively(world: &World) {
@@ -49,15 +34,10 @@ fn is_lively(world: &World) {
 #[test]
 fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
     let world = world();
-    let oracle = oracle(&world);
+    let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
     is_lively(&oracle);
-    let mut exact = adapter::contracts();
-    exact.retain(|(_, contract)| *contract == Contract::Exact);
-    // Metal and DX12 cannot keep it; on Linux an adapter that can must be there.
-    assert!(!exact.is_empty() || cfg!(not(target_os = "linux")), "no adapter keeps the exact contract");
-    for (gpu, contract) in exact {
-        let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-        let candidate = candidate(&gpu, &world, &options);
+    for gpu in exact_adapters() {
+        let candidate = on_gpu(&gpu, &world, &exact(None), &[STEPS]);
         let found = difference(&oracle, &candidate);
         assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
         assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
@@ -69,12 +49,12 @@ fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
 fn a_thousand_steps_on_hills_are_equal_to_the_bit_under_the_exact_contract() {
     let scene = hilly_scene(flying_scene(2016, LEAVES / 4, 3.0, 1.0 / 60.0));
     let world = World::build(&scene).expect("the hilly scene is valid");
-    let oracle = oracle(&world);
+    let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
     is_lively(&oracle);
     for (gpu, contract) in adapter::contracts() {
         if contract == Contract::Exact {
             let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-            let candidate = candidate(&gpu, &world, &options);
+            let candidate = on_gpu(&gpu, &world, &options, &[STEPS]);
             let found = difference(&oracle, &candidate);
             assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
             assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
@@ -89,12 +69,12 @@ fn a_thousand_steps_of_cone_spirals_agree() {
         let air = if contract == Contract::Exact { varied_scene } else { smooth_scene };
         let world =
             World::build(&winding_scene(air(2017, LEAVES / 2, 3.0, 1.0 / 60.0))).expect("it is valid");
-        let oracle = oracle(&world);
+        let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
         is_lively(&oracle);
         let winding = oracle.stats().leaves.primitives[JOINED_COUNT];
         assert!(winding > 500, "{winding} leaves on cone spirals");
         let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-        let found = difference(&oracle, &candidate(&gpu, &world, &options));
+        let found = difference(&oracle, &on_gpu(&gpu, &world, &options, &[STEPS]));
         let is_near = match contract {
             Contract::Exact => found.is_none(),
             Contract::Tolerant => {
@@ -113,11 +93,11 @@ fn a_thousand_steps_of_cone_spirals_agree() {
 fn a_thousand_smooth_steps_stay_together_under_the_tolerant_contract() {
     let world =
         World::build(&smooth_scene(2015, LEAVES, 3.0, 1.0 / 60.0)).expect("the smooth scene is valid");
-    let oracle = oracle(&world);
+    let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
     is_lively(&oracle);
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
-        let found = difference(&oracle, &candidate(&gpu, &world, &options));
+        let found = difference(&oracle, &on_gpu(&gpu, &world, &options, &[STEPS]));
         assert_eq!(found.leaves().integer_rows, 0, "{}: {found:?}", gpu.info().name);
         assert!(
             found.is_finite() && found.leaves().largest("place.position") <= LONG_POSITION_M,
@@ -135,10 +115,10 @@ fn a_thousand_smooth_steps_stay_together_under_the_tolerant_contract() {
 #[test]
 fn in_chaos_the_counts_agree_under_the_tolerant_contract() {
     let world = world();
-    let expected = oracle(&world).stats();
+    let expected = on_cpu(&world, CpuOptions::default(), STEPS).stats();
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
-        let found = candidate(&gpu, &world, &options).stats();
+        let found = on_gpu(&gpu, &world, &options, &[STEPS]).stats();
         let off = found.leaves.falling.abs_diff(expected.leaves.falling);
         assert!(off <= LEAVES / 1000, "{}: {found:?}, expected {expected:?}", gpu.info().name);
     }
@@ -149,11 +129,11 @@ fn in_chaos_the_counts_agree_under_the_tolerant_contract() {
 fn pages_change_nothing() {
     let world = world();
     for gpu in adapter::all() {
-        let whole = candidate(&gpu, &world, &WgpuOptions::default());
+        let whole = on_gpu(&gpu, &world, &WgpuOptions::default(), &[STEPS]);
         let options = WgpuOptions { page_leaves: Some(4096), ..WgpuOptions::default() };
         let simulator = WgpuSimulator::new(&gpu, &world, &options).expect("the device takes the world");
         assert_eq!(simulator.page_count(), 3, "10,000 leaves in pages of 4,096");
-        let paged = candidate(&gpu, &world, &options);
+        let paged = on_gpu(&gpu, &world, &options, &[STEPS]);
         assert_eq!(whole.state_hash(), paged.state_hash(), "{}", gpu.info().name);
     }
 }
@@ -162,13 +142,13 @@ fn pages_change_nothing() {
 #[test]
 fn one_bit_of_one_constant_is_noticed() {
     let world = world();
-    let oracle = oracle(&world);
+    let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
     let old = "const LENGTH_UNIT: f32 = 0.0009765625f";
     let shaders = Shaders::default().edited("prelude", old, "const LENGTH_UNIT: f32 = 0.00097656262f");
     let shaders = shaders.expect("the constant is in the prelude");
     for gpu in adapter::all() {
         let options = WgpuOptions { shaders: Some(shaders.clone()), ..WgpuOptions::default() };
-        let candidate = candidate(&gpu, &world, &options);
+        let candidate = on_gpu(&gpu, &world, &options, &[STEPS]);
         let found = difference(&oracle, &candidate);
         assert!(found.leaves().bit_rows > 0, "{}: nobody noticed: {found:?}", gpu.info().name);
         assert_ne!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);

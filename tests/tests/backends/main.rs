@@ -12,6 +12,7 @@ mod kernels;
 mod litter;
 mod long;
 mod particles;
+mod stepped;
 mod stores;
 mod trees;
 mod windows;

@@ -6,45 +6,21 @@ use windfall_core::scene::{
     MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Tree, TreeForm, TreeKind,
     TreePreset,
 };
-use windfall_core::{Contract, SimError, Simulator, World, oracle};
+use windfall_core::{SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
 use windfall_tests::mutation::{Course, two_at_a_time};
 use windfall_tests::strategies::{hilly_scene, particle_scene};
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+use windfall_wgpu::{WgpuOptions, WgpuSimulator};
+
+use crate::stepped::{exact, exact_adapters, on_cpu, on_gpu};
 
 const DT_S: f32 = 1.0 / 60.0;
 /// Steps after which a change is looked for: most show at once.
 const LOOKS: [u32; 3] = [4, 16, 60];
 fn world() -> World {
     World::build(&particle_scene(31, 4.0, DT_S)).expect("the scene of particles is valid")
-}
-
-fn on_cpu(world: &World, options: CpuOptions, steps: u32) -> World {
-    let mut result = world.clone();
-    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
-    simulator.step(steps).expect("the CPU steps");
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn on_gpu(gpu: &Gpu, world: &World, options: &WgpuOptions, batches: &[u32]) -> World {
-    let mut result = world.clone();
-    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
-    for steps in batches {
-        simulator.step(*steps).expect("it steps");
-    }
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn exact(page_leaves: Option<u32>) -> WgpuOptions {
-    WgpuOptions { contract: Some(Contract::Exact), page_leaves, ..WgpuOptions::default() }
-}
-
-fn exact_adapters() -> impl Iterator<Item = Gpu> {
-    adapter::contracts().into_iter().filter(|(_, contract)| *contract == Contract::Exact).map(|(gpu, _)| gpu)
 }
 
 /// Counts of all populations together: births, deaths, hits, stops, lives cut short.
@@ -94,7 +70,7 @@ fn children_are_the_same_on_both_backends() {
     // Of several births in one slot and step only the last lives, and has children.
     let lost = stats[12].born - stats[13].born;
     assert!(lost <= stats[12].cut_short && stats[12].cut_short < stats[12].born, "of every birth: {stats:?}");
-    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let gpu = exact_adapters().pop().expect("an adapter that keeps the exact contract");
     let soon = on_cpu(&world, CpuOptions::default(), 240).particle_stats();
     assert_eq!(on_gpu(&gpu, &world, &exact(None), &[240]).particle_stats(), soon, "on the device");
     let mut apart = world.compiled.scene().clone();
@@ -203,7 +179,7 @@ fn another_wind_is_taken_over_and_another_number_of_particles_refused() {
     let mut fewer = world.compiled.scene().clone();
     fewer.particles[1].count += 1;
     let other = World::build(&fewer).expect("valid");
-    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let gpu = exact_adapters().pop().expect("an adapter that keeps the exact contract");
     let mut simulators: Vec<Box<dyn Simulator>> = vec![
         Box::new(CpuSimulator::new(&world, CpuOptions::default()).expect("threads start")),
         Box::new(WgpuSimulator::new(&gpu, &world, &exact(None)).expect("the device takes it")),
@@ -232,7 +208,7 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
     scene.sources[0].release = Release::Burst { at_s: 60.0 };
     scene.ground.litter.iter_mut().for_each(|litter| litter.leaf_area_index = 0.0);
     let course = Course::new(World::build(&scene).expect("valid with one leaf"), &LOOKS);
-    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let gpu = exact_adapters().pop().expect("an adapter that keeps the exact contract");
     let edits = [
         ("particle/step", "age < life", "age <= life"),
         ("particle/force", "row + 1u, at).place", "row, at).place"),
@@ -287,7 +263,7 @@ fn drifting_snow_is_equal_to_the_bit() {
         assert!(apart.is_none(), "{threads} threads: {apart:?}");
     }
     let course = Course::new(world, &[36, 180]);
-    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let gpu = exact_adapters().pop().expect("an adapter that keeps the exact contract");
     let edits = [
         ("kernels/step_snow", "snow_drift(here, rise_m", "snow_drift(there, rise_m"),
         ("kernels/step_snow", "drifted_depth(to)", "to.depth"),
@@ -340,7 +316,7 @@ fn snow_on_branches_is_equal_to_the_bit() {
         assert!(apart.is_none(), "{threads} threads: {apart:?}");
     }
     let course = Course::new(world, &[40, 160]);
-    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let gpu = exact_adapters().pop().expect("an adapter that keeps the exact contract");
     let edits = [
         ("kernels/step_branch_snow", "crown_word(square, pool)]", "crown_word(square, pool + 1u)]"),
         ("kernels/step_branch_snow", "after.given", "0u - after.given"),

@@ -3,13 +3,15 @@
 //! Tiers 2 and 3 for trees: swaying segments and leaves on twigs are the same on both backends.
 
 use windfall_core::scene::SwayScheme;
-use windfall_core::{Contract, Scene, Simulator, World};
-use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
+use windfall_core::{Contract, Scene, World};
+use windfall_cpu::{CpuOptions, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::{Difference, STEP_SEGMENT, difference};
 use windfall_tests::mutation::{Course, two_at_a_time};
 use windfall_tests::strategies::wooded_scene;
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+use windfall_wgpu::WgpuOptions;
+
+use crate::stepped::{exact, exact_adapters, on_cpu, on_gpu};
 
 const STEPS: u32 = 1000;
 
@@ -20,22 +22,6 @@ fn world() -> World {
 fn world_of(sway: SwayScheme) -> World {
     let scene = Scene { sway, ..wooded_scene(7, 600, 9.0, 1.0 / 60.0) };
     World::build(&scene).expect("the wooded scene is valid")
-}
-
-fn on_cpu(world: &World, steps: u32, options: CpuOptions) -> World {
-    let mut result = world.clone();
-    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
-    simulator.step(steps).expect("the CPU steps");
-    simulator.read_state(&mut result).expect("same size");
-    result
-}
-
-fn on_gpu(gpu: &Gpu, world: &World, steps: u32, options: &WgpuOptions) -> World {
-    let mut result = world.clone();
-    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
-    simulator.step(steps).expect("it steps");
-    simulator.read_state(&mut result).expect("same size");
-    result
 }
 
 /// Leaves hang, fall and lie, and the trees move.
@@ -62,15 +48,12 @@ fn segments_within(found: &Difference, most: f32) -> bool {
 #[test]
 fn a_thousand_steps_of_trees_are_equal_to_the_bit_under_the_exact_contract() {
     let world = world();
-    let oracle = on_cpu(&world, STEPS, CpuOptions::default());
+    let oracle = on_cpu(&world, CpuOptions::default(), STEPS);
     is_lively(&world, &oracle);
-    let mut exact = adapter::contracts();
-    exact.retain(|(_, contract)| *contract == Contract::Exact);
-    assert!(!exact.is_empty() || cfg!(not(target_os = "linux")), "no adapter keeps the exact contract");
-    for (gpu, contract) in exact {
+    for gpu in exact_adapters() {
         for page_leaves in [None, Some(4096)] {
-            let options = WgpuOptions { contract: Some(contract), page_leaves, ..WgpuOptions::default() };
-            let candidate = on_gpu(&gpu, &world, STEPS, &options);
+            let options = exact(page_leaves);
+            let candidate = on_gpu(&gpu, &world, &options, &[STEPS]);
             let found = difference(&oracle, &candidate);
             assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
             assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
@@ -82,14 +65,11 @@ fn a_thousand_steps_of_trees_are_equal_to_the_bit_under_the_exact_contract() {
 fn every_scheme_is_equal_to_the_bit_under_the_exact_contract() {
     for scheme in [SwayScheme::Quigley, SwayScheme::OliapuramKumar] {
         let world = world_of(scheme);
-        let oracle = on_cpu(&world, 300, CpuOptions::default());
+        let oracle = on_cpu(&world, CpuOptions::default(), 300);
         is_lively(&world, &oracle);
-        for (gpu, contract) in adapter::contracts() {
-            if contract == Contract::Exact {
-                let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-                let found = difference(&oracle, &on_gpu(&gpu, &world, 300, &options));
-                assert!(found.is_none(), "{scheme:?} on {}: {found:?}", gpu.info().name);
-            }
+        for gpu in exact_adapters() {
+            let found = difference(&oracle, &on_gpu(&gpu, &world, &exact(None), &[300]));
+            assert!(found.is_none(), "{scheme:?} on {}: {found:?}", gpu.info().name);
         }
     }
 }
@@ -104,20 +84,17 @@ fn trees_that_shelter_each_other_are_equal_to_the_bit() {
     }
     let world = World::build(&scene).expect("the wooded scene is valid");
     assert!(world.compiled.block().has_shelter(), "trees shelter each other");
-    let oracle = on_cpu(&world, 300, CpuOptions::default());
+    let oracle = on_cpu(&world, CpuOptions::default(), 300);
     scene.wind.shelter = false;
-    let free = on_cpu(&World::build(&scene).expect("the same scene"), 300, CpuOptions::default());
+    let free = on_cpu(&World::build(&scene).expect("the same scene"), CpuOptions::default(), 300);
     assert!(difference(&free, &oracle).segments().largest("base") > 1e-3, "shelter moves trees");
     for simd in Simd::available() {
-        let lanes = on_cpu(&world, 300, CpuOptions { simd: Some(simd), threads: Some(2) });
+        let lanes = on_cpu(&world, CpuOptions { simd: Some(simd), threads: Some(2) }, 300);
         assert!(difference(&oracle, &lanes).is_none(), "{simd:?}");
     }
-    for (gpu, contract) in adapter::contracts() {
-        if contract == Contract::Exact {
-            let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-            let found = difference(&oracle, &on_gpu(&gpu, &world, 300, &options));
-            assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
-        }
+    for gpu in exact_adapters() {
+        let found = difference(&oracle, &on_gpu(&gpu, &world, &exact(None), &[300]));
+        assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
     }
 }
 
@@ -126,35 +103,32 @@ fn joints_solved_in_every_other_step_are_equal_to_the_bit() {
     let scene = Scene { sway_every: 2, ..wooded_scene(7, 600, 4.0, 1.0 / 60.0) };
     let world = World::build(&scene).expect("the wooded scene is valid");
     assert_eq!(world.compiled.block().sway.interval_steps, 2, "a wind light enough");
-    let oracle = on_cpu(&world, 301, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() });
+    let oracle = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() }, 301);
     let every = World::build(&Scene { sway_every: 1, ..scene }).expect("the same scene");
-    let every = on_cpu(&every, 301, CpuOptions::default());
+    let every = on_cpu(&every, CpuOptions::default(), 301);
     assert!(difference(&every, &oracle).segments().largest("base") > 1e-5, "it is another motion");
     for simd in Simd::available() {
-        let lanes = on_cpu(&world, 301, CpuOptions { simd: Some(simd), threads: Some(2) });
+        let lanes = on_cpu(&world, CpuOptions { simd: Some(simd), threads: Some(2) }, 301);
         assert!(difference(&oracle, &lanes).is_none(), "{simd:?}");
     }
-    for (gpu, contract) in adapter::contracts() {
-        if contract == Contract::Exact {
-            let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
-            let found = difference(&oracle, &on_gpu(&gpu, &world, 301, &options));
-            assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
-        }
+    for gpu in exact_adapters() {
+        let found = difference(&oracle, &on_gpu(&gpu, &world, &exact(None), &[301]));
+        assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
     }
 }
 
 #[test]
 fn trees_stay_together_under_the_tolerant_contract() {
     let world = world();
-    let warm = on_cpu(&world, 240, CpuOptions::default());
-    let oracle = on_cpu(&warm, 1, CpuOptions::default());
-    let later = on_cpu(&warm, 60, CpuOptions::default());
+    let warm = on_cpu(&world, CpuOptions::default(), 240);
+    let oracle = on_cpu(&warm, CpuOptions::default(), 1);
+    let later = on_cpu(&warm, CpuOptions::default(), 60);
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
-        let found = difference(&oracle, &on_gpu(&gpu, &warm, 1, &options));
+        let found = difference(&oracle, &on_gpu(&gpu, &warm, &options, &[1]));
         assert_eq!(found.leaves().integer_rows, 0, "{}: {found:?}", gpu.info().name);
         assert!(segments_within(&found, STEP_SEGMENT), "{}: {found:?}", gpu.info().name);
-        let found = difference(&later, &on_gpu(&gpu, &warm, 60, &options));
+        let found = difference(&later, &on_gpu(&gpu, &warm, &options, &[60]));
         assert!(segments_within(&found, 1e-3), "{}: {found:?}", gpu.info().name);
     }
 }
@@ -162,9 +136,9 @@ fn trees_stay_together_under_the_tolerant_contract() {
 #[test]
 fn the_number_of_threads_changes_nothing() {
     let world = world();
-    let one = on_cpu(&world, 300, CpuOptions { threads: Some(1), ..CpuOptions::default() });
+    let one = on_cpu(&world, CpuOptions { threads: Some(1), ..CpuOptions::default() }, 300);
     for threads in [2, 3, 7] {
-        let several = on_cpu(&world, 300, CpuOptions { threads: Some(threads), ..CpuOptions::default() });
+        let several = on_cpu(&world, CpuOptions { threads: Some(threads), ..CpuOptions::default() }, 300);
         assert!(difference(&one, &several).is_none(), "{threads} threads");
         assert_eq!(one.state_hash(), several.state_hash(), "{threads} threads");
     }
@@ -173,9 +147,9 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
     let world = world();
-    let scalar = on_cpu(&world, 200, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() });
+    let scalar = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() }, 200);
     for simd in Simd::available() {
-        let lanes = on_cpu(&world, 200, CpuOptions { simd: Some(simd), ..CpuOptions::default() });
+        let lanes = on_cpu(&world, CpuOptions { simd: Some(simd), ..CpuOptions::default() }, 200);
         assert!(difference(&scalar, &lanes).is_none(), "{simd:?}");
         assert_eq!(scalar.state_hash(), lanes.state_hash(), "{simd:?}");
     }
@@ -183,12 +157,12 @@ fn every_instruction_set_gives_the_same_bits() {
 
 #[test]
 fn a_checkpoint_brings_trees_back_to_the_bit() {
-    let warm = on_cpu(&world(), 200, CpuOptions::default());
+    let warm = on_cpu(&world(), CpuOptions::default(), 200);
     let mut bytes = Vec::new();
     warm.write_checkpoint(&mut bytes).expect("memory takes it");
     let back = World::from_checkpoint(&bytes, "memory").expect("it is whole");
     assert_eq!(back.state_hash(), warm.state_hash(), "read back");
-    let (on, again) = (on_cpu(&warm, 100, CpuOptions::default()), on_cpu(&back, 100, CpuOptions::default()));
+    let (on, again) = (on_cpu(&warm, CpuOptions::default(), 100), on_cpu(&back, CpuOptions::default(), 100));
     assert_eq!(on.state_hash(), again.state_hash(), "stepped on");
 }
 
@@ -224,13 +198,10 @@ fn a_changed_kernel_is_noticed() {
     soft.wood.youngs_modulus_gpa = 1e-4;
     scene.tree_kinds = vec![soft];
     scene.trees[2].kind = "soft".into();
-    let world = on_cpu(&World::build(&scene).expect("valid"), 200, CpuOptions::default());
+    let world = on_cpu(&World::build(&scene).expect("valid"), CpuOptions::default(), 200);
     // Steps after which a change is looked for: most show at once.
     let course = Course::new(world, &[3, 12, 60]);
-    let mut exact = adapter::contracts();
-    exact.retain(|(_, contract)| *contract == Contract::Exact);
-    assert!(!exact.is_empty() || cfg!(not(target_os = "linux")), "no adapter keeps the exact contract");
-    let Some((gpu, _)) = exact.pop() else { return };
+    let Some(gpu) = exact_adapters().pop() else { return };
     two_at_a_time(&gpu, edits.into_iter(), |gpu, (module, old, new)| {
         assert!(course.notices(gpu, module, old, new), "nobody noticed '{new}' in {module}");
     });

@@ -5,10 +5,11 @@
 use windfall_core::leaf::LeafState;
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
-use windfall_tests::adapter;
 use windfall_tests::compare::difference;
 use windfall_tests::strategies::{flying_scene, hilly_scene, varied_scene, wooded_scene};
 use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
+
+use crate::stepped::exact_adapters;
 
 /// Steps of a window. With another number the tests still hold, but may meet less.
 const WINDOW: u32 = 32;
@@ -64,14 +65,6 @@ impl Pair {
     }
 }
 
-/// Devices that keep the exact contract.
-fn exact() -> Vec<Gpu> {
-    let mut gpus = adapter::all();
-    gpus.retain(|gpu| gpu.contract() == Contract::Exact);
-    assert!(!gpus.is_empty() || cfg!(not(target_os = "linux")), "no adapter keeps the exact contract");
-    gpus
-}
-
 /// Leaves of trees that come off in the middle of a window, and those of them that had come back to their twig within it.
 fn let_go_within_windows(world: &World, steps: u32) -> (usize, usize) {
     let mut simulator = CpuSimulator::new(world, CpuOptions::default()).expect("threads start");
@@ -105,7 +98,7 @@ fn petioles_that_break_within_a_window_let_their_leaves_go() {
     let (let_go, twice) = let_go_within_windows(&world, STEPS);
     assert!(let_go > 500, "{let_go} leaves come off within windows");
     assert!(twice > 10, "{twice} of them had come back within the same window");
-    for gpu in exact() {
+    for gpu in exact_adapters() {
         let mut pair = Pair::new(&gpu, &world, None);
         // In the middle of a window, at its end, and windows later.
         for (count, when) in [(20, "20 steps"), (12, "a window"), (STEPS - WINDOW, "all steps")] {
@@ -120,7 +113,7 @@ fn pages_of_trees_list_their_own_leaves() {
     let world = stormy_wood(6000);
     let trees = world.compiled.scene().tree_leaf_count() as usize;
     assert!(trees > 4096 && world.leaves.len() > 2 * 4096, "trees reach into the second page of three");
-    for gpu in exact() {
+    for gpu in exact_adapters() {
         let mut pair = Pair::new(&gpu, &world, Some(4096));
         assert_eq!(pair.candidate.page_count(), 3, "pages");
         pair.step(3 * WINDOW + 5);
@@ -131,7 +124,7 @@ fn pages_of_trees_list_their_own_leaves() {
 #[test]
 fn portions_of_steps_change_nothing_across_the_ends_of_windows() {
     let world = build(&hilly_scene(flying_scene(5, 900, 9.0, 1.0 / 60.0)));
-    for gpu in exact() {
+    for gpu in exact_adapters() {
         let mut pair = Pair::new(&gpu, &world, None);
         pair.step(3 * WINDOW);
         let expected = pair.agreed("at once").state_hash();
@@ -153,7 +146,7 @@ fn portions_of_steps_change_nothing_across_the_ends_of_windows() {
 #[test]
 fn a_state_written_within_a_window_is_listed_anew() {
     let early = build(&varied_scene(8, 3000, 4.0, 1.0 / 60.0));
-    for gpu in exact() {
+    for gpu in exact_adapters() {
         let mut pair = Pair::new(&gpu, &early, None);
         pair.step(700 + 10);
         let late = pair.agreed("late");
@@ -178,7 +171,7 @@ fn a_scene_edited_within_a_window_is_listed_anew() {
     let [still, stormy, fine] = [still, stormy, fine].map(|scene| build(&scene));
     let turns = |world: &World| world.compiled.block().wind.interval_steps;
     assert!(turns(&still) != turns(&stormy), "{} and {} turns", turns(&still), turns(&stormy));
-    for gpu in exact() {
+    for gpu in exact_adapters() {
         let mut pair = Pair::new(&gpu, &still, None);
         pair.step(400 + 5);
         for (scene, name) in [(&stormy, "storm"), (&fine, "fine steps"), (&still, "still air")] {
@@ -218,7 +211,7 @@ fn a_changed_list_is_noticed() {
     let mut expected = world.clone();
     oracle.read_state(&mut expected).expect("same size");
     for (module, old, new) in edits {
-        let Some(gpu) = exact().pop() else { return };
+        let Some(gpu) = exact_adapters().pop() else { return };
         let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
         let options = WgpuOptions { shaders: Some(shaders), ..WgpuOptions::default() };
         let mut candidate = WgpuSimulator::new(&gpu, &world, &options).expect("the device takes the world");

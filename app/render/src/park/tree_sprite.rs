@@ -241,7 +241,7 @@ mod tests {
         assert!(bare > 3000 && bare < leafy / 3, "{bare} texels bare, {leafy} in leaf");
     }
 
-    /// What is kept of one season is not taken for another.
+    /// The sprites kept of one season are not taken for those of another.
     #[test]
     fn kept_trees_are_of_the_season_asked_for() {
         for leaves in [0.0, 1.0, 0.0, 0.0] {
