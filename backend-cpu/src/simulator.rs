@@ -25,6 +25,7 @@ use crate::kernels::gather_heat::gather_heat;
 use crate::kernels::keep_history::keep_history;
 use crate::kernels::land_flakes::land_flakes;
 use crate::kernels::measure::measure;
+use crate::kernels::press_snow::press_snow;
 use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::settle_fires::settle_fires;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
@@ -280,6 +281,7 @@ impl Simulator for CpuSimulator {
                 land_flakes(&cx, particles, bed);
                 step_branch_snow(&cx, branches, bed);
                 step_snow(&cx, bed);
+                press_snow(&cx, bed);
             }
             count
         };

@@ -68,11 +68,13 @@ pub enum KernelId {
     StepBranchSnow,
     /// Lets snow slide, settle and melt.
     StepSnow,
+    /// Lets things that move press snow.
+    PressSnow,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 31] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -103,6 +105,7 @@ impl KernelId {
         Self::LandFlakes,
         Self::StepBranchSnow,
         Self::StepSnow,
+        Self::PressSnow,
     ];
 
     /// Name of the file and of the entry point.
@@ -138,6 +141,7 @@ impl KernelId {
             Self::LandFlakes => "land_flakes",
             Self::StepBranchSnow => "step_branch_snow",
             Self::StepSnow => "step_snow",
+            Self::PressSnow => "press_snow",
         }
     }
 
@@ -168,6 +172,9 @@ impl KernelId {
             kernels.extend([Self::LandFlakes, Self::StepSnow]);
             if compiled.block().snow.branches != 0 {
                 kernels.push(Self::StepBranchSnow);
+            }
+            if compiled.block().has_movers() {
+                kernels.push(Self::PressSnow);
             }
         }
         if compiled.scene().particle_count() > 0 {

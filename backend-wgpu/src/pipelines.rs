@@ -110,7 +110,7 @@ impl GroupLayout {
             // The bindings of shaders/particle/on_leaf_bindings.wgsl.
             Self::OnLeaves => &[Block, Write, Write, Write, Read],
             // The bindings of shaders/particle/flake_bindings.wgsl.
-            Self::Flakes => &[Block, Read],
+            Self::Flakes => &[Block, Read, Read],
             // The bindings of shaders/particle/history_bindings.wgsl.
             Self::History => &[Block, Read, Write],
         }
@@ -135,7 +135,7 @@ impl KernelId {
             Self::SettleFires => &[GroupLayout::BlocksAndLitter, GroupLayout::WrittenBuffer],
             Self::LandFlakes => &[GroupLayout::BlocksAndLitter, GroupLayout::Flakes],
             Self::StepBranchSnow => &[GroupLayout::BlocksAndLitter, GroupLayout::Level],
-            Self::StepSnow => &[GroupLayout::BlocksAndLitter],
+            Self::StepSnow | Self::PressSnow => &[GroupLayout::BlocksAndLitter],
             Self::FollowLeaves => &[GroupLayout::LeavesThatMove, GroupLayout::OnLeaves],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],

@@ -158,6 +158,8 @@ pub(crate) fn constants() -> String {
         device::terrain::ground::wgsl_constants(),
         device::terrain::litter::wgsl_constants(),
         device::terrain::snow::wgsl_constants(),
+        device::terrain::snow_print::wgsl_constants(),
+        device::tree::branch_fall::wgsl_constants(),
         device::tree::branch_snow::wgsl_constants(),
         device::tree::sway::quigley::wgsl_constants(),
         device::tree::sway::wgsl_constants(),

@@ -186,12 +186,12 @@ crate::shared_struct! {
         pub flake_water: u32,
         /// Segments of trees, on which snow lies; 0 where none of them is above the cells.
         pub branches: u32,
-        /// First row of the areas with which they catch it.
+        /// First row of the areas with which they catch it, and behind these of their middles.
         pub first_branch_row: u32,
+        /// Particles as which snow falls from them; 0 where it comes down at once.
+        pub fall_slots: u32,
         /// Zeros; fill the block up to 16 bytes.
-        pub unused: u32,
-        /// The same.
-        pub unused_too: [u32; 2],
+        pub unused: [u32; 2],
     }
 }
 

@@ -7,7 +7,7 @@
 use glam::{Vec2, Vec3};
 use windfall_core::blocks::SnowBlock;
 use windfall_core::device::terrain::litter::litter_height;
-use windfall_core::device::terrain::snow::{SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_STEP_M};
+use windfall_core::device::terrain::snow::{SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_STEP_M, snow_floor};
 use windfall_core::scene::Weather;
 use windfall_core::{Context, World};
 
@@ -65,8 +65,8 @@ struct Corner {
 struct Cells<'a> {
     snow: &'a SnowBlock,
     depths: &'a [u32],
-    /// Height in m and share of open sky of what each cell lies on, negative on water.
-    lies_on: &'a [[f32; 2]],
+    /// Words of the floor of each cell.
+    floors: &'a [[u32; 2]],
 }
 
 impl Cells<'_> {
@@ -74,9 +74,10 @@ impl Cells<'_> {
     fn at(&self, column: u32, line: u32) -> Cell {
         let (column, line) = (column.min(self.snow.columns - 1), line.min(self.snow.lines - 1));
         let number = (line * self.snow.columns + column) as usize;
-        let [base_m, open] = self.lies_on[number];
+        let [height, word] = self.floors[number];
+        let floor = snow_floor(height, word);
         let depth_m = self.depths[number] as f32 * SNOW_DEPTH_M;
-        Cell { base_m, depth_m, is_water: open < 0.0 }
+        Cell { base_m: floor.height_m, depth_m, is_water: floor.open < 0.0 }
     }
 
     /// A corner of cells as seen from one of them. Cells on the level of that one count in full; lower ones, and water, are an edge, at which
@@ -126,9 +127,9 @@ impl SnowMesh {
         }
         let rows = &world.compiled.tables()[snow.first_row as usize..];
         // Two cells to a row.
-        let lies_on = &bytemuck::cast_slice(rows)[..depths.len()];
+        let floors = &bytemuck::cast_slice(rows)[..depths.len()];
         let step = world.step_block();
-        Self::of_cells(&world.context(&step), Cells { snow, depths, lies_on })
+        Self::of_cells(&world.context(&step), Cells { snow, depths, floors })
     }
 
     fn of_cells(cx: &Context<'_>, cells: Cells<'_>) -> Self {
@@ -184,6 +185,7 @@ impl SnowMesh {
 #[cfg(test)]
 pub(super) mod tests {
     use windfall_core::device::terrain::litter::LITTER_UNIT_M;
+    use windfall_core::device::terrain::snow::FLOOR_ON_WATER;
     use windfall_core::scene::{Ground, Litter, Object, ObjectShape, Scene};
 
     use super::*;
@@ -334,9 +336,9 @@ pub(super) mod tests {
         let block = *world.compiled.block();
         world.bed.snow_mut(&block).depth.fill(CENTIMETRE);
         // Water from x = 0 on, on the level of the ground.
-        let lies_on: Vec<_> =
-            (0..32 * 24).map(|cell| if cell % 32 < 16 { [0.0, 1.0] } else { [0.0, -1.0] }).collect();
-        let cells = Cells { snow: &block.snow, depths: world.bed.snow(&block).depth, lies_on: &lies_on };
+        let floors: Vec<_> =
+            (0..32 * 24).map(|cell| [0, if cell % 32 < 16 { 0 } else { FLOOR_ON_WATER }]).collect();
+        let cells = Cells { snow: &block.snow, depths: world.bed.snow(&block).depth, floors: &floors };
         let step = world.step_block();
         let mesh = SnowMesh::of_cells(&world.context(&step), cells);
         assert_eq!((mesh.triangles.len(), mesh.positions_m.len()), (2 * 16 * 24, 17 * 25), "none on water");

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/land_flakes.wgsl
 //!
-//! Gives the water of the flakes that landed in a step to the snow.
+//! Gives the water of the flakes that landed in a step to the snow, and that of what fell from branches.
 
 use rayon::prelude::*;
 use windfall_core::Context;
-use windfall_core::litter::{Bed, flakes_of, has_landed};
+use windfall_core::litter::{Bed, fallen_snow, flakes_of, has_landed};
 use windfall_core::particle::ParticleStore;
 
 use super::CHUNK;
@@ -19,5 +19,8 @@ pub(crate) fn land_flakes(cx: &Context<'_>, particles: &ParticleStore, bed: &mut
         .collect();
     for [x_m, _, z_m] in places {
         bed.land_flake(cx, x_m, z_m);
+    }
+    for (row, [x_m, _, z_m]) in fallen_snow(cx.scene, particles) {
+        bed.land_fall(cx, row, x_m, z_m);
     }
 }

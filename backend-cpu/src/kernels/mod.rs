@@ -16,6 +16,7 @@ pub(crate) mod gather_heat;
 pub(crate) mod keep_history;
 pub(crate) mod land_flakes;
 pub(crate) mod measure;
+pub(crate) mod press_snow;
 pub(crate) mod pull_particles;
 mod push_lying;
 mod resolve_events;

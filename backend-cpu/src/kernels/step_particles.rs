@@ -13,13 +13,14 @@ use rayon::join;
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
-use windfall_core::blocks::{BirthBlock, NestBlock};
+use windfall_core::blocks::{BirthBlock, NEVER, NestBlock};
 use windfall_core::device::particle::nest::{nest_events, nest_place};
 use windfall_core::device::particle::record::{
-    PARTICLE_DORMANT, PARTICLE_MARKS, PARTICLE_STATE_MASK, POPULATION_FOLLOWED, POPULATION_LOCAL,
-    POPULATION_ON_LEAVES, particle_population,
+    PARTICLE_DEAD, PARTICLE_DORMANT, PARTICLE_MARKS, PARTICLE_STATE_MASK, POPULATION_BRANCH_SNOW,
+    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_ON_LEAVES, particle_population,
 };
 use windfall_core::device::particle::step::{ParticleChange, particle_step};
+use windfall_core::device::tree::branch_fall::fall_row;
 use windfall_core::particle::{Generation, ParticleRows, add_to_tally};
 
 use super::CHUNK;
@@ -117,6 +118,17 @@ fn step_lanes<P: Pack>(
                 if (run.particles.place[row].bits & (PARTICLE_STATE_MASK | PARTICLE_MARKS))
                     != PARTICLE_DORMANT
                 {
+                    step_one(cx, run, row, pulls, counts);
+                }
+            }
+            continue;
+        }
+        if (population.flags & POPULATION_BRANCH_SNOW) != 0 && here == last {
+            for (number, row) in rows.enumerate() {
+                let state = run.particles.place[row].bits & (PARTICLE_STATE_MASK | PARTICLE_MARKS);
+                // Most of them wait for snow to fall.
+                let idles = state == PARTICLE_DORMANT || state == PARTICLE_DEAD;
+                if !idles || fall_row(cx, slot_word(place + number)) != NEVER {
                     step_one(cx, run, row, pulls, counts);
                 }
             }

@@ -3,8 +3,9 @@
 //! Bindings of the snow, and its part of a step.
 
 use windfall_core::blocks::NEVER;
-use windfall_core::device::particle::record::POPULATION_SNOW;
+use windfall_core::device::particle::record::{POPULATION_BRANCH_SNOW, POPULATION_SNOW};
 use windfall_core::device::terrain::snow::{SNOW_AGES, snow_turn};
+use windfall_core::device::terrain::snow_print::snow_is_pressed;
 use windfall_core::device::tree::branch_snow::CROWN_TURN;
 use windfall_core::particle::ParticleRun;
 
@@ -35,15 +36,19 @@ impl WgpuSimulator {
         let written =
             group(&self.gpu, self.pipelines.layout(GroupLayout::BlocksAndLitter), self.shared_blocks());
         let mut flakes = Vec::new();
-        for population in block.populations.iter().filter(|one| (one.flags & POPULATION_SNOW) != 0) {
+        let falls = |flags: u32| (flags & (POPULATION_SNOW | POPULATION_BRANCH_SNOW)) != 0;
+        for population in block.populations.iter().filter(|one| falls(one.flags)) {
             let end = population.first_slot + population.count;
             for first in (population.first_slot..end).step_by(self.page_leaves as usize) {
                 let count = (end - first).min(self.page_leaves);
                 let aligned = first / WINDOW_STEP * WINDOW_STEP;
                 let run = ParticleRun { first: first - aligned, count, page_slot: aligned, unused: 0 };
                 let run_block = uniform(&self.gpu, "flakes", &run);
-                let places = self.buffers.particles().window(0, aligned, run.first + count);
-                let resources = [run_block.as_entire_binding(), wgpu::BindingResource::Buffer(places)];
+                let window = |column| {
+                    let window = self.buffers.particles().window(column, aligned, run.first + count);
+                    wgpu::BindingResource::Buffer(window)
+                };
+                let resources = [run_block.as_entire_binding(), window(0), window(2)];
                 let bound = group(&self.gpu, self.pipelines.layout(GroupLayout::Flakes), resources);
                 flakes.push((bound, count));
             }
@@ -71,6 +76,10 @@ impl WgpuSimulator {
         }
         if snow_turn(index) != NEVER {
             pass.set_pipeline(self.pipelines.kernel(KernelId::StepSnow));
+            pass.dispatch_workgroups(snow.cells.div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+        if self.compiled.block().has_movers() && snow_is_pressed(index) {
+            pass.set_pipeline(self.pipelines.kernel(KernelId::PressSnow));
             pass.dispatch_workgroups(snow.cells.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
     }

@@ -117,7 +117,10 @@ impl PopulationBirths {
     fn of(scene: &Scene, particles: &Particles, reach_s: f64, dt_s: f64) -> Self {
         let release = particles.nest.is_none().then_some(particles.release);
         let (mean, from_s) = match release {
-            None | Some(ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves) => (0.0, 0.0),
+            None
+            | Some(
+                ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves | ParticleRelease::BranchSnow,
+            ) => (0.0, 0.0),
             Some(ParticleRelease::Rate { from_s, .. }) => (0.0, f64::from(from_s)),
             // The air is full of flakes at time zero.
             Some(ParticleRelease::Snowfall) => (0.0, -reach_s),
@@ -144,7 +147,7 @@ impl PopulationBirths {
             return u32::try_from(by(within + 1) - by(within)).unwrap_or(u32::MAX);
         }
         match release {
-            ParticleRelease::BurningLeaves => 0,
+            ParticleRelease::BurningLeaves | ParticleRelease::BranchSnow => 0,
             ParticleRelease::Snowfall => self.snowfall.as_ref().map_or(0, |snowfall| {
                 let [before, after] = [at, at + 1].map(|step| snowfall.born_by(step, self.lead, dt_s));
                 u32::try_from(after - before).unwrap_or(u32::MAX)

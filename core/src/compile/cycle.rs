@@ -130,6 +130,7 @@ impl Cycle {
                 let value = match particles.release {
                     ParticleRelease::Burst { .. } => "Burst",
                     ParticleRelease::BurningLeaves => "BurningLeaves",
+                    ParticleRelease::BranchSnow => "BranchSnow",
                     ParticleRelease::Snowfall => "Snowfall",
                     _ => "Poisson",
                 };

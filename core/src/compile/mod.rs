@@ -121,24 +121,19 @@ impl CompiledScene {
         let seedlings = seedlings(scene, solids.own(), |x, z| foot_height(&block, &tables, x, z))?;
         let forest = Forest::plant(seedlings, scene.gravity_m_s2);
         solids.add_trunks(scene, &forest);
-        if let Some(grid) = ShelterGrid::of(scene, solids.own(), &forest) {
-            let rows = shelter_rows(&grid, scene, solids.own(), &forest, &block, &tables);
+        let shelter = ShelterGrid::of(scene, solids.own(), &forest);
+        if let Some(grid) = &shelter {
+            let rows = shelter_rows(grid, scene, solids.own(), &forest, &block, &tables);
             block.shelter = grid.block(len32(tables.len()));
             if is_sheltered(scene, &rows) {
                 block.shelter.lack_unit = grid.lack_unit;
             }
             tables.extend(rows);
         }
-        let foot_m = |x_m: f32, z_m: f32| {
-            let height_m = foot_height(&block, &tables, x_m, z_m);
-            let water_m = if block.has_terrain() {
-                block.ground_height_m + block.water_relief_m
-            } else {
-                block.surface_height_m
-            };
-            (height_m >= water_m).then_some(height_m)
-        };
-        let (snow, cells) = snow_block(scene, &block, solids.own(), &forest, len32(tables.len()), foot_m);
+        let first_row = len32(tables.len());
+        let dry_m = |x_m, z_m| dry_height(&block, &tables, x_m, z_m);
+        let (snow, cells) =
+            snow_block(scene, &block, solids.own(), &forest, shelter.as_ref(), first_row, dry_m);
         block.snow = snow;
         tables.extend(cells);
         block.first_shed_row = len32(tables.len());
@@ -200,7 +195,16 @@ impl CompiledScene {
             self.replace_rows(self.block.first_shed_row, &rows);
         }
         retune_block(&self.scene, self.solids.own(), &mut self.block);
-        if let Some(grid) = ShelterGrid::of(&self.scene, self.solids.own(), &self.forest) {
+        let shelter = ShelterGrid::of(&self.scene, self.solids.own(), &self.forest);
+        if shelter_inputs(&self.scene) != inputs && self.block.has_snow() {
+            let first_row = self.block.snow.first_row;
+            let dry_m = |x_m, z_m| dry_height(&self.block, &self.tables, x_m, z_m);
+            let (solids, forest) = (self.solids.own(), &self.forest);
+            let (_, rows) =
+                snow_block(&self.scene, &self.block, solids, forest, shelter.as_ref(), first_row, dry_m);
+            self.replace_rows(first_row, &rows);
+        }
+        if let Some(grid) = shelter {
             if shelter_inputs(&self.scene) != inputs {
                 let (solids, block) = (self.solids.own(), &self.block);
                 let rows = shelter_rows(&grid, &self.scene, solids, &self.forest, block, &self.tables);
@@ -343,4 +347,15 @@ fn foot_height(block: &SceneBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> f32 
     };
     let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
     block.ground_height_m + relief
+}
+
+/// Height of the ground in metres where no water stands on it.
+fn dry_height(block: &SceneBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> Option<f32> {
+    let height_m = foot_height(block, tables, x_m, z_m);
+    let water_m = if block.has_terrain() {
+        block.ground_height_m + block.water_relief_m
+    } else {
+        block.surface_height_m
+    };
+    (height_m >= water_m).then_some(height_m)
 }

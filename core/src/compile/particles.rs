@@ -16,8 +16,8 @@ use crate::device::particle::birth::{
 use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
     DIRECTION_AROUND, DIRECTION_CAP, DIRECTION_OUTWARD, MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK,
-    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS, POPULATION_ON_LEAVES, POPULATION_SNOW,
-    POPULATION_THROUGH,
+    POPULATION_BRANCH_SNOW, POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS, POPULATION_ON_LEAVES,
+    POPULATION_SNOW, POPULATION_THROUGH,
 };
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
@@ -114,6 +114,9 @@ fn population_block(scene: &Scene, particles: &Particles) -> PopulationBlock {
     };
     if particles.is_snow() {
         block.flags |= POPULATION_SNOW;
+    }
+    if particles.is_branch_snow() {
+        block.flags |= POPULATION_BRANCH_SNOW;
     }
     if particles.is_on_leaves() {
         block.flags |= POPULATION_ON_LEAVES;

@@ -21,13 +21,17 @@ pub(super) fn shelter_rows(
     block: &SceneBlock,
     tables: &[Uint4],
 ) -> Vec<Uint4> {
+    grid.rows(scene, solids, forest, &shelter_wind(scene), |x_m, z_m| {
+        foot_height(block, tables, single(x_m), single(z_m)).into()
+    })
+}
+
+/// The wind that a scene's shelter is made for.
+pub(super) fn shelter_wind(scene: &Scene) -> ShelterWind {
     let (sin, cos) = libm::sincos(f64::from(scene.wind.direction_deg).to_radians());
     let leaves_left = leaves_left(f64::from(scene.autumn));
     let roughness_m = scene.ground.surface_roughness_m.into();
-    let wind = ShelterWind { direction_x: cos, direction_z: sin, leaves_left, roughness_m };
-    grid.rows(scene, solids, forest, &wind, |x_m, z_m| {
-        foot_height(block, tables, single(x_m), single(z_m)).into()
-    })
+    ShelterWind { direction_x: cos, direction_z: sin, leaves_left, roughness_m }
 }
 
 /// Numbers that these rows depend on and that may change while a simulation runs.

@@ -4,12 +4,13 @@
 
 use glam::{DVec2, DVec3};
 
+use super::shelter::shelter_wind;
 use super::solids::bound_m;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock, SnowStepBlock, StepBlock};
 use crate::convert::{len32, low_word, single, word};
 use crate::device::terrain::snow::{
-    DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_UNIT_KG,
-    SNOW_WATER_MM, snow_cell,
+    DRIFT_ROUNDS, FLOOR_LEE_M, FLOOR_ON_WATER, FLOOR_OPEN, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL,
+    SNOW_TURNS, SNOW_UNIT_KG, SNOW_WATER_MM, snow_cell,
 };
 use crate::device::tree::branch_snow::CROWN_UNITS_M2;
 use crate::device::wind::profile::profile_factor;
@@ -19,6 +20,7 @@ use crate::scene::{ParticleShape, Particles, Scene, Weather};
 use crate::solid::{Solid, entry_m};
 use crate::tree::Forest;
 use crate::tree::skeleton::AttachmentKind;
+use crate::wind::ShelterGrid;
 
 /// Melt in mm of water per day and °C above 0 °C under the open sky, and in woods (Kuusisto, Nordic Hydrology 11, 1980).
 const MELT_MM_DAY_C: [f64; 2] = [3.5, 2.4];
@@ -98,12 +100,16 @@ pub(super) fn flakes_per_mm(scene: &Scene, water: u32) -> f64 {
     falls_over_m2(flakes) * units_per_mm_m2() / f64::from(water)
 }
 
-/// The grid of the snow of a scene, and from a row of the tables on what its cells lie on: height in m and share of open sky, two cells to a row.
+/// Share of the open sky of cells on water.
+const ON_WATER: f32 = -1.0;
+
+/// The grid of the snow of a scene, and from a row of the tables on the floors of its cells, two to a row.
 pub(super) fn snow_block(
     scene: &Scene,
     block: &SceneBlock,
     solids: &[Solid],
     forest: &Forest,
+    shelter: Option<&ShelterGrid>,
     first_row: u32,
     ground: impl Fn(f32, f32) -> Option<f32>,
 ) -> (SnowBlock, Vec<Uint4>) {
@@ -124,7 +130,7 @@ pub(super) fn snow_block(
     let mut base: Vec<(f32, f32)> = (0..cells)
         .map(|cell| {
             let at = place(cell).as_vec2();
-            ground(at.x, at.y).map_or((0.0, SNOW_ON_WATER), |height_m| (height_m, 1.0))
+            ground(at.x, at.y).map_or((0.0, ON_WATER), |height_m| (height_m, 1.0))
         })
         .collect();
     shade(&snow, forest, &mut base);
@@ -139,24 +145,38 @@ pub(super) fn snow_block(
             base[cell].0 = base[cell].0.max(single(ABOVE_M - way_m));
         }
     }
-    let branch_rows = branch_rows(&mut snow, forest);
+    let lees_m = shelter.map(|grid| {
+        let ground_m = |x_m, z_m| ground(single(x_m), single(z_m)).unwrap_or(block.surface_height_m).into();
+        grid.filled_m(solids, &shelter_wind(scene), ground_m, (0..cells).map(|cell| place(cell).to_array()))
+    });
+    let lees_m = lees_m.into_iter().flatten().chain(std::iter::repeat(0.0));
     let words: Vec<u32> =
-        base.iter().flat_map(|&(height_m, open)| [height_m, open].map(f32::to_bits)).collect();
+        base.iter().zip(lees_m).flat_map(|(&base, lee_m)| floor_words(base, lee_m)).collect();
     let rows = words.chunks(4).map(|row| {
         let mut full = [0; 4];
         full[..row.len()].copy_from_slice(row);
         Uint4(full)
     });
     let mut rows: Vec<Uint4> = rows.collect();
+    snow.fall_slots = scene.particles.iter().find(|one| one.is_branch_snow()).map_or(0, |falls| falls.count);
+    let branch_rows = branch_rows(&mut snow, forest);
     snow.first_branch_row = first_row + len32(rows.len());
     rows.extend(branch_rows);
     (snow, rows)
 }
 
-/// Areas with which the segments of a forest catch snow (see [`branch_catch`](crate::device::tree::branch_snow::branch_catch)), row by row; nothing if
-/// none of them is above the snow.
+/// Words of a floor (see [`snow_floor`](crate::device::terrain::snow::snow_floor)).
+fn floor_words((height_m, open): (f32, f32), lee_m: f64) -> [u32; 2] {
+    let open = if open < 0.0 { FLOOR_ON_WATER } else { word(f64::from(open) / f64::from(FLOOR_OPEN)) };
+    let lee = word((lee_m / f64::from(FLOOR_LEE_M)).min(f64::from(u16::MAX)));
+    [height_m.to_bits(), open | lee << 16]
+}
+
+/// Areas with which the segments of a forest catch snow (see [`branch_catch`](crate::device::tree::branch_snow::branch_catch)), row by row, and behind
+/// them, if it falls as particles, their middles; nothing if none of them is above the snow.
 fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
     let mut rows = vec![Uint4([NEVER, 0, 0, 0]); forest.len()];
+    let mut middles = vec![Uint4([0; 4]); if snow.fall_slots == 0 { 0 } else { forest.len() }];
     let mut is_any = false;
     for tree in forest.trees() {
         let mut leaves = vec![0.0_f64; tree.skeleton.segments.len()];
@@ -165,6 +185,9 @@ fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
         }
         for ((segment, &row), leaves) in tree.skeleton.segments.iter().zip(&tree.rows).zip(leaves) {
             let middle_m = tree.foot_m + 0.5 * (segment.start_m + segment.end_m);
+            if let Some(middle) = middles.get_mut(row as usize) {
+                *middle = Uint4(middle_m.extend(0.0).to_array().map(f32::to_bits));
+            }
             let cell = snow_cell(snow, middle_m.x, middle_m.z);
             if cell == NEVER {
                 continue;
@@ -183,6 +206,7 @@ fn branch_rows(snow: &mut SnowBlock, forest: &Forest) -> Vec<Uint4> {
         return Vec::new();
     }
     snow.branches = len32(forest.len());
+    rows.extend(middles);
     rows
 }
 

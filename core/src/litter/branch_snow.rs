@@ -8,7 +8,8 @@ use crate::arith::vector::vec3_dot;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
 use crate::convert::word;
-use crate::device::terrain::snow::{SNOW_WATER_MM, fresh_depth, snow_cell};
+use crate::device::terrain::snow::{SNOW_WATER_MM, fresh_depth, snow_cell, snow_inside};
+use crate::device::tree::branch_fall::{fall_word, falls_as_particle};
 use crate::device::tree::branch_snow::{
     CROWN_CELLS, CROWN_POOL, CROWN_WORDS, branch_catch, branch_offer, branch_room, branch_round, branch_word,
     crown_cell, crown_columns, crown_part, crown_pool, crown_square, crown_squares, flake_is_caught,
@@ -26,12 +27,18 @@ pub struct BranchSnowMut<'a> {
     pub held: &'a mut [u32],
     /// The words of the squares, one after another for all of them.
     pub crowns: &'a mut [u32],
+    /// Units of water that fall from each segment as particles; empty where snow comes down at once.
+    pub falls: &'a mut [u32],
 }
 
 impl Bed {
     /// Number of words of the snow on branches.
     pub(super) fn branch_snow_words(snow: &SnowBlock) -> usize {
-        if snow.branches == 0 { 0 } else { (snow.branches + CROWN_WORDS * crown_squares(snow)) as usize }
+        if snow.branches == 0 {
+            return 0;
+        }
+        let falls = if snow.fall_slots == 0 { 0 } else { snow.branches };
+        (snow.branches + CROWN_WORDS * crown_squares(snow) + falls) as usize
     }
 
     /// Range of its words.
@@ -56,18 +63,28 @@ impl Bed {
         &crowns[(crown_pool(step) as usize + 1) * squares..][..squares]
     }
 
+    /// Units of water that fall from segments as particles; empty where snow comes down at once.
+    pub(super) fn branch_falls(&self, scene: &SceneBlock) -> &[u32] {
+        if scene.snow.branches == 0 || scene.snow.fall_slots == 0 {
+            return &[];
+        }
+        &self.words[fall_word(&scene.snow, 0) as usize..][..scene.snow.branches as usize]
+    }
+
     /// The snow on branches, to be changed.
     pub fn branch_snow_mut(&mut self, scene: &SceneBlock) -> BranchSnowMut<'_> {
         let words = &mut self.words[Self::branch_snow_range(scene)];
-        let (held, crowns) = words.split_at_mut(scene.snow.branches as usize);
-        BranchSnowMut { held, crowns }
+        let (held, words) = words.split_at_mut(scene.snow.branches as usize);
+        let crowns = if scene.snow.branches == 0 { 0 } else { CROWN_WORDS * crown_squares(&scene.snow) };
+        let (crowns, falls) = words.split_at_mut(crowns as usize);
+        BranchSnowMut { held, crowns, falls }
     }
 
     /// Lets a flake land, on the cells or in a crown above them.
     pub fn land_flake(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32) {
         let cell = snow_cell(&cx.scene.snow, x_m, z_m);
-        if cell == NEVER || !flake_is_caught(cx, x_m, z_m, lies_on(cx, cell)[1]) {
-            self.snow_mut(cx.scene).land(cx, x_m, z_m);
+        if cell == NEVER || !flake_is_caught(cx, x_m, z_m, lies_on(cx, cell).open) {
+            self.snow_mut(cx.scene).land(cx, x_m, z_m, cx.scene.snow.flake_water);
             return;
         }
         let snow = &cx.scene.snow;
@@ -76,6 +93,14 @@ impl Bed {
         for place in [fresh, left] {
             crowns[place] = crowns[place].wrapping_add(snow.flake_water);
         }
+    }
+
+    /// Lets the snow land that has fallen from the segment in a row as a particle; beyond the rectangle it counts at its edge.
+    pub fn land_fall(&mut self, cx: &Context<'_>, row: u32, x_m: f32, z_m: f32) {
+        let snow = &cx.scene.snow;
+        let water = std::mem::take(&mut self.branch_snow_mut(cx.scene).falls[row as usize]);
+        let [x_m, z_m] = snow_inside(snow, x_m, z_m);
+        self.snow_mut(cx.scene).land(cx, x_m, z_m, water);
     }
 
     /// Adds up the areas of the segments over each square, in the middle of a round.
@@ -91,7 +116,8 @@ impl Bed {
 
     /// Lets the segments of all trees take, in the last exchange of a round, what has come down over their squares, and lose what falls from them.
     pub fn step_branch_snow(&mut self, cx: &Context<'_>, branches: &Branches) {
-        let BranchSnowMut { held, crowns } = self.branch_snow_mut(cx.scene);
+        let snow = &cx.scene.snow;
+        let BranchSnowMut { held, crowns, falls } = self.branch_snow_mut(cx.scene);
         for (row, held) in (0..).zip(held) {
             let catch = branch_catch(cx, row);
             if catch.cell == NEVER {
@@ -106,7 +132,14 @@ impl Bed {
             let offered = branch_offer(catch, crowns[fresh], crowns[area]);
             let after = branch_round(cx, row, room, *held, offered, vec3_dot(spin, spin));
             *held = after.held;
-            crowns[left] = crowns[left].wrapping_add(after.given);
+            let mut given = after.lost.wrapping_sub(after.caught);
+            if let Some(falling) = falls.get_mut(at)
+                && falls_as_particle(snow, after.lost, *falling)
+            {
+                *falling = after.lost;
+                given = given.wrapping_sub(after.lost);
+            }
+            crowns[left] = crowns[left].wrapping_add(given);
         }
     }
 
@@ -148,7 +181,7 @@ impl Bed {
             return;
         }
         let cells = snow.columns * snow.lines;
-        let covered = |cell: u32| f64::from((1.0 - lies_on(cx, cell)[1]).clamp(0.0, 1.0));
+        let covered = |cell: u32| f64::from((1.0 - lies_on(cx, cell).open).clamp(0.0, 1.0));
         let units = f64::from(mm) / f64::from(SNOW_WATER_MM);
         let mut fallen = vec![0.0_f64; crown_squares(snow) as usize];
         for cell in 0..cells {

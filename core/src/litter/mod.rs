@@ -12,6 +12,6 @@ mod stats;
 mod store;
 
 pub use branch_snow::BranchSnowMut;
-pub use snow::{Snow, SnowMut, SnowStats, flakes_of, has_landed, lies_on};
+pub use snow::{Snow, SnowMut, SnowStats, fallen_snow, flakes_of, has_landed, lies_on};
 pub use stats::LitterStats;
 pub use store::Bed;

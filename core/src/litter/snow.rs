@@ -10,12 +10,15 @@ use crate::arith::lane::Word;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
 use crate::convert::word;
-use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_SNOW};
+use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_BRANCH_SNOW, POPULATION_SNOW};
+use crate::device::solid::shape::solid_at;
 use crate::device::terrain::snow::{
     AROUND_TURN, FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_UNIT_KG,
-    SNOW_WATER_MM, SNOW_WORDS, SnowCell, drifted_depth, flake_cell, flake_share, fresh_depth, snow_age,
-    snow_cell, snow_center, snow_drift, snow_drifts, snow_pair, snow_slide, snow_turn,
+    SNOW_WATER_MM, SNOW_WORDS, SnowCell, SnowFloor, drifted_depth, flake_cell, flake_share, fresh_depth,
+    left_over_snow, snow_age, snow_cell, snow_center, snow_drift, snow_drifts, snow_floor, snow_pair,
+    snow_slide, snow_turn,
 };
+use crate::device::terrain::snow_print::{may_press, snow_is_pressed, snow_pressed};
 use crate::device::tree::branch_snow::CROWN_TURN;
 use crate::device::wind::shelter::wind_shelter;
 use crate::layout::Uint4;
@@ -111,35 +114,29 @@ impl SnowMut<'_> {
         SnowCell { water: self.water[at], depth: self.depth[at] }
     }
 
-    /// Adds the water of a flake that lands at a place; on water it melts at once. Only on all cells.
-    pub fn land(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32) {
-        let (snow, water) = (&cx.scene.snow, cx.scene.snow.flake_water);
+    /// Adds the water of what lands at a place; on water it melts at once. Only on all cells.
+    pub fn land(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32, water: u32) {
+        let snow = &cx.scene.snow;
         let middle = snow_cell(snow, x_m, z_m);
         if middle == NEVER {
             return;
         }
-        let number = middle as usize;
         let mut left = water;
-        if lies_on(cx, middle)[1] < 0.0 {
-            self.melted[number] = self.melted[number].wrapping_add(water);
-            self.landed[number] = self.landed[number].wrapping_add(water);
-            return;
-        }
         for part in 0..FLAKE_CELLS * FLAKE_CELLS {
             let cell = flake_cell(snow, middle, part);
             if cell != NEVER && cell != middle {
                 let share = flake_share(water, part);
-                self.add(cx, cell as usize, share);
+                self.fall(cx, cell, share);
                 left -= share;
             }
         }
-        self.add(cx, number, left);
+        self.fall(cx, middle, left);
     }
 
-    /// Adds the water of snow that falls through crowns to a cell of this number; on water it melts at once.
+    /// Adds water that comes down to a cell of this number; on water it melts at once.
     pub(super) fn fall(&mut self, cx: &Context<'_>, cell: u32, water: u32) {
         let at = (cell - self.first) as usize;
-        if lies_on(cx, cell)[1] >= 0.0 {
+        if lies_on(cx, cell).open >= 0.0 {
             self.add(cx, at, water);
         } else {
             self.melted[at] = self.melted[at].wrapping_add(water);
@@ -193,26 +190,27 @@ impl SnowMut<'_> {
             if one.depth == 0 && two.depth == 0 {
                 continue;
             }
-            let [[one_m, open], [two_m, other_open]] = [lies_on(cx, cell), lies_on(cx, pair.other)];
+            let [on, other_on] = [lies_on(cx, cell), lies_on(cx, pair.other)];
             // Water has no snow to lie on.
-            if open < 0.0 || other_open < 0.0 {
+            if on.open < 0.0 || other_on.open < 0.0 {
                 continue;
             }
             let way_m = (if pair.is_diagonal { ROOT_TWO } else { 1.0 }) * (1.0 / SNOW_CELLS_PER_M);
             let (mut to, mut fro) = (SnowCell::default(), SnowCell::default());
             if !pair.is_around {
-                to = snow_slide(one, two, one_m - two_m, way_m);
-                fro = snow_slide(two, one, two_m - one_m, way_m);
+                to = snow_slide(one, two, on.height_m - other_on.height_m, way_m);
+                fro = snow_slide(two, one, other_on.height_m - on.height_m, way_m);
             }
             let mut here = moved(one, to, fro);
             let mut there = moved(two, fro, to);
             if drifts && !pair.is_diagonal {
-                let rise_m = (two_m + there.depth.to_real() * SNOW_DEPTH_M)
-                    - (one_m + here.depth.to_real() * SNOW_DEPTH_M);
+                let rise_m = (other_on.height_m + there.depth.to_real() * SNOW_DEPTH_M)
+                    - (on.height_m + here.depth.to_real() * SNOW_DEPTH_M);
                 let wind = &cx.scene.wind;
                 let toward = if (turn & 3) == 0 { wind.direction_x } else { wind.direction_z };
-                let to = snow_drift(cx, here, rise_m, wind_left(cx, cell, here), toward);
-                let fro = snow_drift(cx, there, -rise_m, wind_left(cx, pair.other, there), -toward);
+                let to = snow_drift(cx, here, rise_m, wind_left(cx, cell, here, on.lee_m), toward);
+                let fro =
+                    snow_drift(cx, there, -rise_m, wind_left(cx, pair.other, there, other_on.lee_m), -toward);
                 here = moved(here, to, SnowCell { water: fro.water, depth: drifted_depth(fro) });
                 there = moved(there, fro, SnowCell { water: to.water, depth: drifted_depth(to) });
             }
@@ -230,9 +228,37 @@ impl SnowMut<'_> {
             }
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
             let cell = self.first + at as u32;
-            let after = snow_age(cx, cell, before, lies_on(cx, cell)[1]);
+            let after = snow_age(cx, cell, before, lies_on(cx, cell).open);
             (self.water[at], self.depth[at]) = (after.water, after.depth);
             self.melted[at] = self.melted[at].wrapping_add(before.water - after.water);
+        }
+    }
+
+    /// Lets things that move press the snow beneath them. Only on all cells.
+    pub fn press(&mut self, cx: &Context<'_>) {
+        let snow = &cx.scene.snow;
+        let near = |at_m: f32, reach_m: f32, first: u32, count: u32| {
+            let number = |at_m: f32| {
+                let column = (at_m * SNOW_CELLS_PER_M).floor() - first.cast_signed() as f32;
+                word(f64::from(column.clamp(0.0, count as f32)))
+            };
+            number(at_m - reach_m)..(number(at_m + reach_m) + 1).min(count)
+        };
+        for number in 0..cx.scene.solids.mover_count {
+            let mover = &cx.step.movers[number as usize];
+            let ([x_m, _, z_m], reach_m) = (mover.center_m, mover.bound_m);
+            let solid = solid_at(cx, number, 0.0);
+            for line in near(z_m, reach_m, snow.first_line, snow.lines) {
+                for column in near(x_m, reach_m, snow.first_column, snow.columns) {
+                    let cell = line * snow.columns + column;
+                    let before = self.cell(cell as usize);
+                    let [x, z] = snow_center(snow, cell);
+                    if before.depth != 0 && may_press(mover, x, z) {
+                        let floor_m = lies_on(cx, cell).height_m;
+                        self.depth[cell as usize] = snow_pressed(&solid, x, z, floor_m, before).depth;
+                    }
+                }
+            }
         }
     }
 
@@ -241,7 +267,7 @@ impl SnowMut<'_> {
         let water = word(f64::from(mm) / f64::from(SNOW_WATER_MM));
         for at in 0..self.water.len() {
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
-            if lies_on(cx, self.first + at as u32)[1] >= 0.0 {
+            if lies_on(cx, self.first + at as u32).open >= 0.0 {
                 self.add(cx, at, water);
             }
         }
@@ -253,20 +279,21 @@ fn moved(cell: SnowCell, gives: SnowCell, gets: SnowCell) -> SnowCell {
     SnowCell { water: cell.water - gives.water + gets.water, depth: cell.depth - gives.depth + gets.depth }
 }
 
-/// Share of the wind that shelter leaves over the snow of a cell.
-fn wind_left(cx: &Context<'_>, cell: u32, snow: SnowCell) -> f32 {
+/// Share of the wind that shelter leaves over the snow of a cell in a lee so deep.
+fn wind_left(cx: &Context<'_>, cell: u32, snow: SnowCell, lee_m: f32) -> f32 {
     if !cx.scene.has_shelter() {
         return 1.0;
     }
     let [x, z] = snow_center(&cx.scene.snow, cell);
-    wind_shelter(cx, x, snow.depth.to_real() * SNOW_DEPTH_M, z)
+    let depth_m = snow.depth.to_real() * SNOW_DEPTH_M;
+    left_over_snow(wind_shelter(cx, x, depth_m, z), depth_m, lee_m)
 }
 
-/// Height in m of what a cell lies on, and its share of the open sky, negative on water.
-pub fn lies_on(cx: &Context<'_>, cell: u32) -> [f32; 2] {
+/// Floor that a cell lies on.
+pub fn lies_on(cx: &Context<'_>, cell: u32) -> SnowFloor {
     let Uint4(row) = cx.tables[(cx.scene.snow.first_row + (cell >> 1)) as usize];
     let first = 2 * (cell as usize & 1);
-    [row[first], row[first + 1]].map(f32::from_bits)
+    snow_floor(row[first], row[first + 1])
 }
 
 /// Returns true for flakes that landed in the step before.
@@ -280,11 +307,27 @@ pub fn flakes_of<'a>(scene: &SceneBlock, particles: &'a ParticleStore) -> &'a [P
     flakes.map_or(&[], |flakes| &particles.place[flakes.first_slot as usize..][..flakes.count as usize])
 }
 
+/// Segments of which snow has come down in the step before, and where.
+pub fn fallen_snow<'a>(
+    scene: &SceneBlock,
+    particles: &'a ParticleStore,
+) -> impl Iterator<Item = (u32, [f32; 3])> + use<'a> {
+    let falls = scene.populations.iter().find(|one| (one.flags & POPULATION_BRANCH_SNOW) != 0);
+    let slots =
+        falls.map_or(0..0, |falls| falls.first_slot as usize..(falls.first_slot + falls.count) as usize);
+    let rows = particles.place[slots.clone()].iter().zip(&particles.traits[slots]);
+    rows.filter(|(place, _)| (place.bits & PARTICLE_DIED) != 0)
+        .map(|(place, traits)| (traits.id, place.position))
+}
+
 /// Takes the snow of a world through a step in which some of these particles may have landed.
-pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, flakes: &[ParticlePlace]) {
-    for place in flakes.iter().filter(|place| has_landed(place)) {
+pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, particles: &ParticleStore) {
+    for place in flakes_of(cx.scene, particles).iter().filter(|place| has_landed(place)) {
         let [x_m, _, z_m] = place.position;
         bed.land_flake(cx, x_m, z_m);
+    }
+    for (row, [x_m, _, z_m]) in fallen_snow(cx.scene, particles) {
+        bed.land_fall(cx, row, x_m, z_m);
     }
     let turn = snow_turn(cx.step.index);
     if turn == 0 {
@@ -303,6 +346,9 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, fl
         SNOW_AGES => snow.age(cx),
         turn => snow.exchange(cx, turn),
     }
+    if cx.scene.has_movers() && snow_is_pressed(cx.step.index) {
+        snow.press(cx);
+    }
 }
 
 /// Sums over the snow of a world at one step.
@@ -310,7 +356,7 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, fl
 pub struct SnowStats {
     /// Flakes in the air.
     pub flakes: u32,
-    /// Water in the air in kg, with what crowns have just caught.
+    /// Water in the air in kg, with what crowns have just caught and what falls from them.
     pub falling_kg: f64,
     /// Water of the snow on the branches of trees in kg.
     pub on_branches_kg: f64,
@@ -344,7 +390,8 @@ impl SnowStats {
         Some(Self {
             flakes,
             falling_kg: (f64::from(flakes) * f64::from(block.snow.flake_water)
-                + sum(bed.in_crowns(block, step)))
+                + sum(bed.in_crowns(block, step))
+                + sum(bed.branch_falls(block)))
                 * UNIT_KG,
             on_branches_kg: sum(bed.branch_snow(block)) * UNIT_KG,
             landed_kg: sum(snow.landed) * UNIT_KG,

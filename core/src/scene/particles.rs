@@ -186,6 +186,10 @@ pub enum ParticleRelease {
     /// As snow falls by the scene's weather: as many as its water needs, each flake with the same, which becomes part of the snow where it lands. The
     /// heavier the snowfall, the more; the slots suffice for the heaviest.
     Snowfall,
+    /// As snow falls from the branches of trees, over which it lies by the scene's weather: each takes along what a segment has lost, and it becomes part of the
+    /// snow where it lands. A particle serves several segments, one at a time, and what is too little for one comes down at once, as all
+    /// does without such particles.
+    BranchSnow,
     /// As leaves catch: each particle is where a leaf burns for as long as that burns. There is one for each leaf of the scene, and nothing but
     /// its leaf moves it; others may be born of it.
     BurningLeaves,
@@ -269,6 +273,11 @@ impl Particles {
     /// Returns true for flakes of snow.
     pub fn is_snow(&self) -> bool {
         self.nest.is_none() && self.release == ParticleRelease::Snowfall
+    }
+
+    /// Returns true for snow that falls from branches.
+    pub fn is_branch_snow(&self) -> bool {
+        self.nest.is_none() && self.release == ParticleRelease::BranchSnow
     }
 
     /// Returns true if each particle is where a leaf burns.

@@ -20,7 +20,7 @@ use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
 use crate::device::leaf::strike::leaf_push;
 use crate::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 use crate::leaf::{Burns, Leaves};
-use crate::litter::snow::{flakes_of, step_snow};
+use crate::litter::snow::step_snow;
 use crate::particle::{follow_leaves, keep_all, step_all};
 use crate::scene::MAX_PLUMES;
 
@@ -66,7 +66,7 @@ pub fn step(world: &mut World, count: u32) {
             *fire = fire_words(fire[0], *fed);
         }
         if bare.scene.has_snow() {
-            step_snow(bare, bed, branches, flakes_of(bare.scene, particles));
+            step_snow(bare, bed, branches, particles);
         }
         follow_leaves(bare, leaves, burns, particles);
     });

@@ -25,6 +25,10 @@
 //! where there is none; that it does so evenly is an assumption, as is the ellipsoid's height. In its half next to the wall, and a quarter as high as the
 //! wall, a roller turns the wind back along the ground, by up to a quarter of its speed at the wall's height: air that has come down the wall, and that keeps
 //! its foot clear. Its size and strength are assumptions.
+//!
+//! Snow that fills a wake leaves less of the body to shelter it: over snow of a depth d the wake is taken for that of a body of height h - d, and so
+//! ends where the snow is `h (1 - x/l)` deep, l being the length of the wake. That two wakes are alike when lengths and heights are in proportion
+//! makes this of Perera's fit; that the snow does not change their shape is an assumption.
 
 use std::f64::consts::SQRT_2;
 
@@ -285,9 +289,7 @@ impl BluffWake {
 
     /// The same behind it.
     fn lack_behind(&self, behind_m: f64, across_m: f64, layer_m: f64) -> Option<Node> {
-        let spread_m = SQRT_2 * self.spread_m(behind_m);
-        let [from, to] = self.sides_m.map(|side_m| libm::erf((across_m - side_m) / spread_m));
-        let sides = 0.5 * (from - to);
+        let sides = self.sides(across_m, behind_m);
         if behind_m >= self.length_m || sides < 1e-4 {
             return None;
         }
@@ -307,5 +309,22 @@ impl BluffWake {
             };
             (level * shape).min(self.most_lack)
         }))
+    }
+
+    /// Depth of snow in m at a place that fills the wake there; zero outside of it.
+    pub(super) fn filled_m(&self, [along_m, across_m]: [f64; 2]) -> f64 {
+        let side_m = across_m.clamp(self.sides_m[0], self.sides_m[1]);
+        let behind_m = along_m - along_at(&self.footprint.back, side_m);
+        if behind_m <= 0.0 || self.length_m <= behind_m {
+            return 0.0;
+        }
+        self.height_m * (1.0 - behind_m / self.length_m) * self.sides(across_m, behind_m)
+    }
+
+    /// Share of a wake's middle that it has at a place across the wind, so many metres behind the body.
+    fn sides(&self, across_m: f64, behind_m: f64) -> f64 {
+        let spread_m = SQRT_2 * self.spread_m(behind_m);
+        let [from, to] = self.sides_m.map(|side_m| libm::erf((across_m - side_m) / spread_m));
+        0.5 * (from - to)
     }
 }

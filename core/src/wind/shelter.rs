@@ -281,6 +281,27 @@ impl ShelterGrid {
         rows
     }
 
+    /// Depths of snow in m that fill the wakes of solid things at places, x and z in m; zero where there are none. Trees shelter however deep it lies.
+    pub fn filled_m(
+        &self,
+        solids: &[Solid],
+        wind: &ShelterWind,
+        ground_height_m: impl Fn(f64, f64) -> f64,
+        places_m: impl Iterator<Item = [f64; 2]>,
+    ) -> Vec<f64> {
+        let wakes = SolidWakes::of(solids, self, wind, &ground_height_m).bluff;
+        let reaches: Vec<_> = wakes.iter().map(BluffWake::reach_m).collect();
+        let filled_m = |[x_m, z_m]: [f64; 2]| {
+            let place = wind.frame(x_m, z_m);
+            let reach = |reach: &[[f64; 2]; 2]| {
+                (0..2).all(|axis| (reach[axis][0]..reach[axis][1]).contains(&place[axis]))
+            };
+            let near = wakes.iter().zip(&reaches).filter(|(_, reaches)| reach(reaches));
+            near.map(|(wake, _)| wake.filled_m(place)).fold(0.0, f64::max)
+        };
+        places_m.map(filled_m).collect()
+    }
+
     /// Place of a node in m.
     fn node_m(&self, x: usize, z: usize) -> [f64; 2] {
         [self.west_m + x as f64 * self.cell_m, self.north_m + z as f64 * self.cell_m]

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions of snow on branches.
 
+use windfall_core::device::tree::branch_fall::{fall_row, fall_start, fall_word, falls_as_particle};
 use windfall_core::device::tree::branch_snow::{
     BranchCatch, branch_catch, branch_offer, branch_room, branch_round, branch_snow_kg, branch_word,
     crown_cell, crown_columns, crown_part, crown_pool, crown_round, crown_square, crown_squares, crown_width,
@@ -50,14 +51,29 @@ functions! {
         let room = branch_room(catch_by, f32(in_word(6u)), in_float(7u));
         let after = branch_round(a.x, room, a.y, branch_offer(catch_by, a.z, in_word(3u) + in_word(9u)), in_float(8u));
         out_float(0u, room * 2.5e-6); out_float(1u, f32(after.held) * 2.5e-6);
-        out_float(2u, f32(a.y + a.z - after.held - after.given) * 2.5e-6);";
+        out_float(2u, f32(after.caught) * 2.5e-6);
+        out_float(3u, f32(after.lost) * 2.5e-6);";
     rust |cx, w| {
         let catch = catch(w, 3);
         #[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
         let room = branch_room(cx, catch, w[6] as f32, float(w[7]));
         let after = branch_round(cx, w[0], room, w[1], branch_offer(catch, w[2], w[3] + w[9]), float(w[8]));
-        let left = w[1].wrapping_add(w[2]).wrapping_sub(after.held).wrapping_sub(after.given);
-        floats([room * 2.5e-6, of_most(after.held), of_most(left)])
+        floats([room * 2.5e-6, of_most(after.held), of_most(after.caught), of_most(after.lost)])
+    };
+
+    fall_row in "tree/branch_fall" (Input::Below(90), Input::Below(40), Input::Below(600), Input::Below(2)) tolerance None;
+    wgsl "r = vec4<u32>(fall_row(a.x), fall_word(a.y), u32(falls_as_particle(a.z, a.w)), 0u);";
+    rust |cx, w| {
+        let snow = &cx.scene.snow;
+        let falls = u32::from(falls_as_particle(snow, w[2], w[3]));
+        integers([fall_row(cx, w[0]), fall_word(snow, w[1]), falls])
+    };
+
+    fall_start in "tree/branch_fall" (Input::Below(40)) tolerance None;
+    wgsl "let start = fall_start(a.x); out_float(0u, start.x); out_float(1u, start.y); out_float(2u, start.z);";
+    rust |cx, w| {
+        let start = fall_start(cx, w[0]);
+        floats([start.x, start.y, start.z])
     };
 
     branch_catch in "tree/branch_snow" (Input::Below(40)) tolerance Some(1e-5);

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions of snow that lies.
 
+use windfall_core::device::solid::shape::solid_at;
 use windfall_core::device::terrain::snow::{
-    SnowCell, drifted_depth, flake_cell, flake_share, flake_weight, fresh_depth, round_at_random, snow_age,
-    snow_cell, snow_center, snow_drift, snow_drifts, snow_freshness, snow_height, snow_pair, snow_part,
-    snow_repose, snow_slide, snow_taken, snow_turn,
+    SnowCell, drifted_depth, flake_cell, flake_share, flake_weight, fresh_depth, left_over_snow,
+    round_at_random, snow_age, snow_cell, snow_center, snow_drift, snow_drifts, snow_floor, snow_freshness,
+    snow_height, snow_inside, snow_pair, snow_part, snow_repose, snow_slide, snow_taken, snow_turn,
 };
+use windfall_core::device::terrain::snow_print::{may_press, snow_is_pressed, snow_pressed, underside};
 
 use super::{Function, Input, float, floats, functions, integers};
 
@@ -55,6 +57,47 @@ functions! {
     rust |cx, w| {
         let [x, z] = snow_center(&cx.scene.snow, w[2]);
         floats([snow_height(cx, float(w[0]), float(w[1])), x, z])
+    };
+
+    snow_floor in "terrain/snow" (Input::Word, Input::Word, METRES, METRES) tolerance None;
+    wgsl "let on = snow_floor(a.x, a.y); let inside = snow_inside(bitcast<f32>(a.z), bitcast<f32>(a.w));
+        r = vec4<u32>(bitcast<u32>(on.height_m), bitcast<u32>(on.open), bitcast<u32>(on.lee_m), 0u);
+        s = vec4<u32>(bitcast<u32>(inside.x), bitcast<u32>(inside.y), 0u, 0u);";
+    rust |cx, w| {
+        let on = snow_floor(w[0], w[1]);
+        let [x, z] = snow_inside(&cx.scene.snow, float(w[2]), float(w[3]));
+        integers([on.height_m.to_bits(), on.open.to_bits(), on.lee_m.to_bits(), 0, x.to_bits(), z.to_bits()])
+    };
+
+    left_over_snow in "terrain/snow" (Input::Float(-1.0, 1.0), Input::Float(0.0, 2.0), Input::Float(-0.2, 2.0)) tolerance Some(1e-5);
+    wgsl "out_float(0u, left_over_snow(bitcast<f32>(a.x), bitcast<f32>(a.y), bitcast<f32>(a.z)));
+        out_float(1u, f32(u32(scene.snow.columns != 0u)));";
+    rust |cx, w| floats([left_over_snow(float(w[0]), float(w[1]), float(w[2])), f32::from(u8::from(cx.has_snow()))]);
+
+    snow_pressed in "terrain/snow_print" (
+        Input::Word, Input::Float(-0.4, 0.4), Input::Float(-0.4, 0.4), Input::Float(-0.6, 0.2), WATER, DEPTH, Input::Below(40)
+    ) tolerance Some(1e-3);
+    wgsl "let solid = solid_at(a.x % scene.solids.count, 0.0);
+        let x = solid.center.x + bitcast<f32>(a.y);
+        let z = solid.center.z + bitcast<f32>(a.z);
+        let low = solid.center.y + bitcast<f32>(a.w);
+        let after = snow_pressed(solid, x, z, low, SnowCell(in_word(4u), in_word(5u)));
+        out_float(0u, f32(after.depth) * 2.5e-6); out_float(1u, f32(after.water) * 2.5e-6);
+        out_float(2u, underside(solid, x, z, low, low + 0.5));
+        out_float(3u, f32(u32(snow_is_pressed(in_word(6u)))));
+        let mover = a.x % scene.solids.mover_count;
+        out_float(4u, f32(u32(may_press(step_block.movers[mover], x, z))));";
+    rust |cx, w| {
+        let solid = solid_at(cx, w[0] % cx.scene.solids.count, 0.0);
+        let (x, z) = (solid.center.x + float(w[1]), solid.center.z + float(w[2]));
+        let low = solid.center.y + float(w[3]);
+        let after = snow_pressed(&solid, x, z, low, cell(w, 4));
+        let is = |is: bool| if is { 1.0 } else { 0.0 };
+        let mover = &cx.step.movers[(w[0] % cx.scene.solids.mover_count) as usize];
+        floats([
+            of_most(after.depth), of_most(after.water), underside(&solid, x, z, low, low + 0.5),
+            is(snow_is_pressed(w[6])), is(may_press(mover, x, z)),
+        ])
     };
 
     snow_drift in "terrain/snow" (WATER, DEPTH, Input::Float(-0.3, 0.3), Input::Float(-6.0, 6.0), Input::Float(-1.0, 1.0)) tolerance Some(1e-5);

@@ -3,7 +3,7 @@
 //! Changes of one constant or operator of a device function that must be noticed.
 
 /// Module, a line of it, the line changed, and a function of the table that shows it.
-pub(crate) const EDITS: [(&str, &str, &str, &str); 122] = [
+pub(crate) const EDITS: [(&str, &str, &str, &str); 126] = [
     ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
     ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
     ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
@@ -124,7 +124,11 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 122] = [
     ("wind/plume", "* inverse_cube * PLUME_ABOVE_K", "* PLUME_ABOVE_K", "plume_warmth"),
     ("wind/plume", "bitcast<f32>(words.z)", "bitcast<f32>(words.y)", "plume_warmth"),
     ("tree/branch_snow", "units + (line % CROWN_CELLS)", "units + 1u + (line % CROWN_CELLS)", "crown_part"),
-    ("tree/branch_snow", "held - shed + caught", "held - shed", "branch_round"),
+    ("tree/branch_snow", "held - lost + caught", "held - lost", "branch_round"),
+    ("tree/branch_fall", "lost >= LEAST_FALL", "lost > LEAST_FALL + 9u", "fall_row"),
+    ("terrain/snow", "f32(word >> 16u)", "f32(word >> 17u)", "snow_floor"),
+    ("terrain/snow", "1.0 - (1.0 - left)", "1.0 - left", "left_over_snow"),
+    ("terrain/snow_print", "y += distance", "y += 2.0 * distance", "snow_pressed"),
     ("terrain/snow", "inner + u32(inner == 0u)", "inner + u32(inner == 4u)", "snow_cell"),
     ("terrain/snow", "column + kind - 2u", "column + kind - 1u", "snow_pair"),
     ("terrain/snow", "way_m * snow_repose", "way_m + snow_repose", "snow_slide"),

@@ -3,8 +3,8 @@
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
 use windfall_core::scene::{
-    MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Tree, TreeForm, TreeKind,
-    TreePreset,
+    Air, MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Spread, Tree, TreeForm,
+    TreeKind, TreePreset,
 };
 use windfall_core::{SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
@@ -225,7 +225,11 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ("kernels/land_flakes", "scene.snow.flake_water;", "scene.snow.flake_water + 1u;"),
         ("kernels/land_flakes", "left -= share", "left -= min(share, 1u)"),
         ("kernels/step_snow", "one.water - after.water", "one.depth - after.depth"),
-        ("kernels/step_snow", "on.x - other_on.x, way_m", "other_on.x - on.x, way_m"),
+        (
+            "kernels/step_snow",
+            "on.height_m - other_on.height_m, way_m",
+            "other_on.height_m - on.height_m, way_m",
+        ),
     ];
     let unchanged = course.first_difference(&gpu, &exact(None));
     assert!(unchanged.is_none(), "both backends move particles alike: {unchanged:?}");
@@ -267,7 +271,9 @@ fn drifting_snow_is_equal_to_the_bit() {
     let edits = [
         ("kernels/step_snow", "snow_drift(here, rise_m", "snow_drift(there, rise_m"),
         ("kernels/step_snow", "drifted_depth(to)", "to.depth"),
-        ("kernels/step_snow", "f32(snow.depth) * SNOW_DEPTH_M, center.y", "0.0, center.x"),
+        ("kernels/step_snow", "center.x, depth_m, center.y", "center.x, 0.0, center.x"),
+        ("kernels/press_snow", "solid_of_rows(number,", "solid_of_rows(0u,"),
+        ("kernels/press_snow", "cells] = after.depth", "cells] = before.depth"),
         ("terrain/snow", "cell - column, is_around", "cell, is_around"),
         ("terrain/snow", "return SnowPair(column, false, true)", "return none"),
         ("terrain/snow", "left * toward <= 0.0", "left * toward >= 0.0"),
@@ -285,6 +291,15 @@ fn drifting_snow_is_equal_to_the_bit() {
 fn snow_on_branches_is_equal_to_the_bit() {
     let mut scene = particle_scene(36, 9.0, DT_S);
     scene.particles.retain(Particles::is_snow);
+    scene.particles.push(Particles {
+        name: "falls".into(),
+        count: 37,
+        release: ParticleRelease::BranchSnow,
+        life_s: Some(Spread::Constant(3.0)),
+        air: Air::Settling { m_s: Spread::Constant(2.0) },
+        meets: Meets::Die,
+        ..Particles::default()
+    });
     scene.forces.clear();
     scene.sources.clear();
     scene.autumn = 0.3;
@@ -308,6 +323,8 @@ fn snow_on_branches_is_equal_to_the_bit() {
         held(&world) > 1000 && held(&expected) != held(&world),
         "branches hold snow, and catch more or lose it"
     );
+    let falls = &expected.particle_stats()[1];
+    assert!(falls.born > 20 && falls.died > 10, "snow falls from branches: {falls:?}");
     let bent = (world.branches.pose.iter().zip(&expected.branches.pose)).filter(|(a, b)| a != b).count();
     assert!(bent > world.branches.pose.len() / 2, "{bent} segments have moved");
     for threads in [1, 3, 16] {
@@ -319,7 +336,15 @@ fn snow_on_branches_is_equal_to_the_bit() {
     let gpu = exact_adapters().pop().expect("an adapter that keeps the exact contract");
     let edits = [
         ("kernels/step_branch_snow", "crown_word(square, pool)]", "crown_word(square, pool + 1u)]"),
-        ("kernels/step_branch_snow", "after.given", "0u - after.given"),
+        ("kernels/step_branch_snow", "after.lost - after.caught", "after.caught - after.lost"),
+        ("kernels/step_branch_snow", "given -= after.lost", "given -= after.caught"),
+        (
+            "kernels/land_flakes",
+            "atomicExchange(&table_words[falling], 0u)",
+            "atomicExchange(&table_words[falling], 1u)",
+        ),
+        ("tree/branch_fall", "row += scene.snow.fall_slots", "row += 1u"),
+        ("particle/step", "position = fall_start(row)", "position = fall_start(0u)"),
         ("kernels/step_snow", "CROWN_POOL - crown_pool", "crown_pool"),
         ("tree/branch_snow", "words.x % CROWN_CELLS", "words.y % CROWN_CELLS"),
         ("tree/branch_snow", "1.0 - axis_y * axis_y", "axis_y * axis_y"),

@@ -3,12 +3,17 @@
 //! Snow on branches: against the law of interception, books to the unit, and limbs that bend beneath it.
 
 use glam::{Vec2, Vec3};
+use windfall_core::blocks::NEVER;
+use windfall_core::device::particle::record::{PARTICLE_ALIVE, particle_state};
 use windfall_core::device::terrain::snow::{
     SNOW_AGES, SNOW_INTERVAL, SNOW_TURNS, SNOW_UNIT_KG, SNOW_WATER_MM,
 };
+use windfall_core::device::tree::branch_fall::fall_start;
 use windfall_core::device::tree::branch_snow::{CROWN_TURN, branch_catch};
 use windfall_core::litter::{flakes_of, has_landed, lies_on};
-use windfall_core::scene::{Foliage, Scene, Tree, TreeForm, TreeKind, TreePreset};
+use windfall_core::scene::{
+    Air, Foliage, Meets, ParticleRelease, Particles, Scene, Spread, Tree, TreeForm, TreeKind, TreePreset,
+};
 use windfall_core::{Clock, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
@@ -94,7 +99,7 @@ fn crowns_hold_what_the_law_of_interception_says() {
             room_kg[square_of(catch.cell)] += 5.9 * (0.27 + 46.0 / fresh_kg_m3) * area_m2;
         }
         for cell in 0..cells {
-            let [_, open] = lies_on(&cx, cell);
+            let open = lies_on(&cx, cell).open;
             covered_m2[square_of(cell)] += f64::from(1.0 - open) / 64.0;
         }
         // Squares that are shifted share what falls with their neighbours: more than each by itself, less than one for all.
@@ -122,12 +127,37 @@ fn crowns_hold_what_the_law_of_interception_says() {
     }
 }
 
-/// In a storm over a tree, warm enough for snow to fall from its branches, all water is that on the ground, on branches and in crowns, to the unit.
+/// In a storm over a tree, warm enough for snow to fall from its branches, all water is that on the ground, on branches and in crowns, to the unit,
+/// whether it comes down from there at once or as particles.
 #[test]
 fn no_water_is_lost_in_crowns() {
     let mut scene = oak_in_snow(30.0, 1.5, 4.0);
     scene.wind = steady_wind(9.0);
-    let world = World::build(&scene).expect("valid");
+    water_is_kept(&scene);
+    scene.particles.push(falls(500));
+    let fallen = water_is_kept(&scene);
+    let stats = &fallen.particle_stats()[1];
+    assert!(stats.born > 8 && stats.died > 8, "snow falls from branches: {stats:?}");
+}
+
+/// Snow that falls from branches as so many particles.
+fn falls(count: u32) -> Particles {
+    Particles {
+        name: "falls".into(),
+        count,
+        release: ParticleRelease::BranchSnow,
+        life_s: Some(Spread::Constant(8.0)),
+        size_m: Spread::Constant(0.03),
+        density_kg_m3: 100.0,
+        air: Air::Settling { m_s: Spread::Constant(4.0) },
+        meets: Meets::Die,
+        ..Particles::default()
+    }
+}
+
+/// Steps a storm over a tree, and checks the books of its water after each step.
+fn water_is_kept(scene: &Scene) -> World {
+    let world = World::build(scene).expect("valid");
     let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
     let mut state = world.clone();
     let half_m = 0.5 * EDGE_M;
@@ -159,6 +189,51 @@ fn no_water_is_lost_in_crowns() {
         most_falling = most_falling.max(in_crowns as f64);
     }
     assert!(most_held > fallen / 20 && most_falling > 0.0, "much is caught: {most_held} of {fallen}");
+    state
+}
+
+/// Snow that falls from a branch as a particle begins there, is as much as the branch has lost, and comes to lie where it lands.
+#[test]
+fn snow_falls_from_where_it_lay() {
+    let mut scene = oak_in_snow(0.0, -10.0, 4.0);
+    scene.particles[0].count = 1;
+    scene.particles.push(falls(4000));
+    let mut world = World::build(&scene).expect("valid");
+    let block = *world.compiled.block();
+    let compiled = world.compiled.clone();
+    let cx_step = compiled.step_block(&world.clock);
+    let cx = compiled.context(&cx_step);
+    // Ten times what the highest segment bears: it slides off.
+    let height_m = |row: u32| fall_start(&cx, row).y;
+    let rows = (0..block.snow.branches).filter(|row| branch_catch(&cx, *row).cell != NEVER);
+    let row = rows.max_by(|a, b| height_m(*a).total_cmp(&height_m(*b))).expect("segments");
+    let start_m = fall_start(&cx, row);
+    world.bed.branch_snow_mut(&block).held[row as usize] = 100_000;
+    let ground = sum(world.bed.snow(&block).landed);
+    let mut state = world.clone();
+    let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    let mut first = None;
+    for _ in 0..400 {
+        cpu.step(1).expect("the CPU steps");
+        cpu.read_state(&mut state).expect("the same world");
+        let slot = 1 + row as usize % 4000;
+        let place = &state.particles.place[slot];
+        if first.is_none() && particle_state(place.bits) == PARTICLE_ALIVE {
+            let falling = state.bed.branch_snow_mut(&block).falls[row as usize];
+            let held = state.bed.branch_snow_mut(&block).held[row as usize];
+            assert_eq!(falling + held, 100_000, "as much as the branch has lost");
+            assert!(falling > 50_000, "what it does not bear: {falling}");
+            first = Some((Vec3::from_array(place.position), falling));
+        }
+    }
+    let (begins_m, fallen) = first.expect("it falls");
+    assert!(
+        begins_m.distance(Vec3::new(start_m.x, start_m.y, start_m.z)) < 0.3,
+        "{begins_m} from {start_m:?}"
+    );
+    assert_eq!(state.particle_stats()[1].born, state.particle_stats()[1].died, "it has come down");
+    let landed = sum(state.bed.snow(&block).landed) - ground;
+    assert!(landed >= u64::from(fallen), "and lies: {landed} of {fallen}");
 }
 
 /// Place of the end of the segment in a row.

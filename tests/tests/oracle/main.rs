@@ -45,6 +45,7 @@ mod slipstream;
 mod snow;
 mod snow_drift;
 mod snow_leaves;
+mod snow_print;
 mod solids;
 mod sway;
 mod table_file;

@@ -6,10 +6,10 @@ use glam::{Vec2, Vec3};
 use windfall_core::device::terrain::snow::{
     SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM, snow_turn,
 };
-use windfall_core::litter::{flakes_of, has_landed};
+use windfall_core::litter::{flakes_of, has_landed, lies_on};
 use windfall_core::scene::{
     Air, Bounds, Litter, MeanSpeed, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles,
-    Scene, Spread, Tree, Water, Weather,
+    Scene, Spread, Terrain, Tree, Water, Weather,
 };
 use windfall_core::{World, oracle};
 
@@ -212,7 +212,7 @@ fn heaps_of_snow_stand_as_steep_as_measured() {
         let cx = compiled.context(&block);
         let mut snow = world.bed.snow_mut(compiled.block());
         for _ in 0..2 {
-            snow.land(&cx, 0.01, 0.01);
+            snow.land(&cx, 0.01, 0.01, cx.scene.snow.flake_water);
         }
         (0..SNOW_AGES).for_each(|turn| snow.exchange(&cx, turn));
         if index == 2999 {
@@ -322,6 +322,23 @@ fn no_snow_lies_on_water() {
     let snow = world.bed.snow(world.compiled.block());
     assert!(sum(snow.landed) > 0 && sum(snow.melted) == sum(snow.landed), "what has landed has melted");
     assert_eq!((sum(snow.water), sum(snow.depth)), (0, 0), "nothing lies");
+    // Between shores.
+    let mut scene = snowy(40.0, -5.0, 12.0, 9000);
+    scene.ground.terrain = Some(Terrain { edge_m: 16.0, relief_m: 2.0, levels: 4, ..Terrain::default() });
+    scene.ground.water = Some(Water { height_m: 1.0 });
+    let mut world = World::build(&scene).expect("valid");
+    oracle::step(&mut world, 400);
+    let step = world.compiled.step_block(&world.clock);
+    let cx = world.compiled.context(&step);
+    let snow = world.bed.snow(world.compiled.block());
+    let is_water = |cell: usize| lies_on(&cx, u32::try_from(cell).expect("few cells")).open < 0.0;
+    let (wet, dry): (Vec<_>, Vec<_>) = (0..snow.water.len()).partition(|cell| is_water(*cell));
+    assert!(wet.len() > 500 && dry.len() > 500, "both: {} and {}", wet.len(), dry.len());
+    assert!(
+        wet.iter().all(|cell| snow.depth[*cell] == 0 && snow.melted[*cell] == snow.landed[*cell]),
+        "none lies on water"
+    );
+    assert!(dry.iter().any(|cell| snow.depth[*cell] > 0), "but on land");
 }
 
 /// The weather alone gives what cells in the open have after hours of snow and thaw.

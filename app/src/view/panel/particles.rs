@@ -205,8 +205,8 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
             (per_s, from_s)
         }
         ParticleRelease::Burst { at_s } => (10.0, at_s),
-        // A leaf or the weather makes each.
-        ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => return,
+        // A leaf, a branch or the weather makes each.
+        ParticleRelease::BurningLeaves | ParticleRelease::BranchSnow | ParticleRelease::Snowfall => return,
     };
     let options = [
         ("evenly", ParticleRelease::Rate { per_s, from_s }),
@@ -215,7 +215,7 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
     ];
     choice(ui, "Births", "When they are born", release, own.as_ref(), &options);
     match (release, own) {
-        (ParticleRelease::BurningLeaves | ParticleRelease::Snowfall, _) => {}
+        (ParticleRelease::BurningLeaves | ParticleRelease::BranchSnow | ParticleRelease::Snowfall, _) => {}
         (ParticleRelease::Burst { at_s }, own) => {
             let own = if let Some(ParticleRelease::Burst { at_s }) = own { Some(at_s) } else { None };
             field("Born at", "Time of their birth", limits::AT_S).fine(0.1).show(ui, at_s, own);
@@ -227,6 +227,7 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
                 }
                 ParticleRelease::Burst { .. }
                 | ParticleRelease::BurningLeaves
+                | ParticleRelease::BranchSnow
                 | ParticleRelease::Snowfall => None,
             });
             let tip = "Births in a second";

@@ -5,6 +5,7 @@
 #import arith/quaternion
 #import arith/vector
 #import tree/bindings
+#import tree/branch_fall
 #import tree/branch_snow
 
 // The tables, behind which the snow is: nothing else of them is written.
@@ -47,5 +48,13 @@ fn step_branch_snow(@builtin(global_invocation_id) id: vec3<u32>) {
     let offered = branch_offer(catch_by, fresh, atomicLoad(&table_words[area]));
     let after = branch_round(row, room, held, offered, vec3_dot(spin, spin));
     atomicStore(&table_words[place], after.held);
-    atomicAdd(&table_words[bed + crown_word(square, pool + 1u)], after.given);
+    var given = after.lost - after.caught;
+    if (scene.snow.fall_slots != 0u) {
+        let falling = bed + fall_word(row);
+        if (falls_as_particle(after.lost, atomicLoad(&table_words[falling]))) {
+            atomicStore(&table_words[falling], after.lost);
+            given -= after.lost;
+        }
+    }
+    atomicAdd(&table_words[bed + crown_word(square, pool + 1u)], given);
 }

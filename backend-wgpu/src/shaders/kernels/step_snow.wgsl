@@ -23,24 +23,25 @@ fn write_snow(cell: u32, snow: SnowCell) {
     snow_words[snow_word(SNOW_DEPTH, cell)] = snow.depth;
 }
 
-fn lies_on(cell: u32) -> vec2<f32> {
+fn lies_on(cell: u32) -> SnowFloor {
     let first = scene.snow.first_row * 4u + 2u * cell;
-    return vec2<f32>(bitcast<f32>(snow_words[first]), bitcast<f32>(snow_words[first + 1u]));
+    return snow_floor(snow_words[first], snow_words[first + 1u]);
 }
 
 fn moved(cell: SnowCell, gives: SnowCell, gets: SnowCell) -> SnowCell {
     return SnowCell(cell.water - gives.water + gets.water, cell.depth - gives.depth + gets.depth);
 }
 
-fn wind_left(cell: u32, snow: SnowCell) -> f32 {
+fn wind_left(cell: u32, snow: SnowCell, lee_m: f32) -> f32 {
     if (scene.shelter.lack_unit == 0.0) {
         return 1.0;
     }
     let center = snow_center(cell);
-    let place = shelter_place(center.x, f32(snow.depth) * SNOW_DEPTH_M, center.y);
+    let depth_m = f32(snow.depth) * SNOW_DEPTH_M;
+    let place = shelter_place(center.x, depth_m, center.y);
     let first = (scene.shelter.first_row + place.row) * 4u;
     let words = vec4<u32>(snow_words[first], snow_words[first + 1u], snow_words[first + 2u], snow_words[first + 3u]);
-    return shelter_left(place, words);
+    return left_over_snow(shelter_left(place, words), depth_m, lee_m);
 }
 
 fn clear_crown(cell: u32) {
@@ -82,12 +83,12 @@ fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
         clear_crown(cell);
     }
     if (turn == SNOW_AGES && scene.snow.branches != 0u) {
-        fall_through_crown(cell, on.y);
+        fall_through_crown(cell, on.open);
     }
     let one = read_snow(cell);
     if (turn == SNOW_AGES) {
         if (one.water != 0u) {
-            let after = snow_age(cell, one, on.y);
+            let after = snow_age(cell, one, on.open);
             write_snow(cell, after);
             snow_words[snow_word(SNOW_MELTED, cell)] += one.water - after.water;
         }
@@ -100,23 +101,23 @@ fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let two = read_snow(pair.other);
     let other_on = lies_on(pair.other);
-    if ((one.depth == 0u && two.depth == 0u) || on.y < 0.0 || other_on.y < 0.0) {
+    if ((one.depth == 0u && two.depth == 0u) || on.open < 0.0 || other_on.open < 0.0) {
         return;
     }
     let way_m = select(1.0, ROOT_TWO, pair.is_diagonal) * (1.0 / SNOW_CELLS_PER_M);
     var to = SnowCell(0u, 0u);
     var fro = SnowCell(0u, 0u);
     if (!pair.is_around) {
-        to = snow_slide(one, two, on.x - other_on.x, way_m);
-        fro = snow_slide(two, one, other_on.x - on.x, way_m);
+        to = snow_slide(one, two, on.height_m - other_on.height_m, way_m);
+        fro = snow_slide(two, one, other_on.height_m - on.height_m, way_m);
     }
     var here = moved(one, to, fro);
     var there = moved(two, fro, to);
     if (drifts && !pair.is_diagonal) {
-        let rise_m = (other_on.x + f32(there.depth) * SNOW_DEPTH_M) - (on.x + f32(here.depth) * SNOW_DEPTH_M);
+        let rise_m = (other_on.height_m + f32(there.depth) * SNOW_DEPTH_M) - (on.height_m + f32(here.depth) * SNOW_DEPTH_M);
         let toward = select(scene.wind.direction_z, scene.wind.direction_x, (turn & 3u) == 0u);
-        to = snow_drift(here, rise_m, wind_left(cell, here), toward);
-        fro = snow_drift(there, -rise_m, wind_left(pair.other, there), -toward);
+        to = snow_drift(here, rise_m, wind_left(cell, here, on.lee_m), toward);
+        fro = snow_drift(there, -rise_m, wind_left(pair.other, there, other_on.lee_m), -toward);
         here = moved(here, to, SnowCell(fro.water, drifted_depth(fro)));
         there = moved(there, fro, SnowCell(to.water, drifted_depth(to)));
     }

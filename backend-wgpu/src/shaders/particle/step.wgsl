@@ -12,6 +12,7 @@
 #import particle/strike
 #import solid/near
 #import terrain/ground
+#import tree/branch_fall
 
 struct ParticleChange {
     born: u32,
@@ -68,6 +69,16 @@ fn rest_is_checked(id: u32) -> bool {
 
 fn slot_birth(particle: u32, slot: u32, change: ptr<function, ParticleChange>) -> f32 {
     let number = particle_population(particle_places[particle].bits);
+    if ((scene.populations[number].flags & POPULATION_BRANCH_SNOW) != 0u) {
+        let row = fall_row(slot - scene.populations[number].first_slot);
+        if (row == NEVER || particle_state(particle_places[particle].bits) == PARTICLE_ALIVE) {
+            return 1.0;
+        }
+        (*change).born = 1u;
+        particle_birth(particle, number, row);
+        particle_places[particle].position = fall_start(row);
+        return 1.0;
+    }
     if (scene.populations[number].nest.fan == 0u) {
         let among = birth_number(number, slot - scene.populations[number].first_slot);
         if (among == NEVER) {

@@ -32,8 +32,18 @@ fn row_vector(row: vec4<u32>) -> vec3<f32> {
 
 fn solid_at(number: u32, seconds: f32) -> SolidAt {
     let first = scene.solids.first_row + number * SOLID_ROWS;
-    let sizes = tables[first];
-    let surface = bitcast<vec4<f32>>(tables[first + 1u]);
+    return solid_of_rows(number, tables[first], tables[first + 1u], tables[first + 2u], tables[first + 3u], seconds);
+}
+
+fn solid_of_rows(
+    number: u32,
+    sizes: vec4<u32>,
+    surface_row: vec4<u32>,
+    center: vec4<u32>,
+    turn: vec4<u32>,
+    seconds: f32,
+) -> SolidAt {
+    let surface = bitcast<vec4<f32>>(surface_row);
     var half_m = vec3<f32>(0.0, 0.0, 0.0);
     if ((sizes.x & (SOLID_HULL | SOLID_GRID)) == 0u) {
         half_m = bitcast<vec3<f32>>(sizes.yzw);
@@ -47,8 +57,8 @@ fn solid_at(number: u32, seconds: f32) -> SolidAt {
         surface.y,
         surface.z,
         surface.w,
-        row_vector(tables[first + 2u]),
-        bitcast<vec4<f32>>(tables[first + 3u]),
+        row_vector(center),
+        bitcast<vec4<f32>>(turn),
         vec3<f32>(0.0, 0.0, 0.0),
         vec3<f32>(0.0, 0.0, 0.0),
     );

@@ -11,6 +11,12 @@ struct SnowCell {
     depth: u32,
 }
 
+struct SnowFloor {
+    height_m: f32,
+    open: f32,
+    lee_m: f32,
+}
+
 struct SnowPair {
     other: u32,
     is_diagonal: bool,
@@ -21,6 +27,15 @@ struct SnowBetween {
     depths_m: vec4<f32>,
     x: f32,
     z: f32,
+}
+
+fn snow_floor(height: u32, word: u32) -> SnowFloor {
+    let open = word & 0xffffu;
+    return SnowFloor(
+        bitcast<f32>(height),
+        select(f32(open) * FLOOR_OPEN, -1.0, open == FLOOR_ON_WATER),
+        f32(word >> 16u) * FLOOR_LEE_M,
+    );
 }
 
 fn snow_depth_m(cell: u32) -> f32 {
@@ -59,6 +74,14 @@ fn snow_cell(x: f32, z: f32) -> u32 {
     let column = bitcast<u32>(i32(floor(x * SNOW_CELLS_PER_M))) - scene.snow.first_column;
     let line = bitcast<u32>(i32(floor(z * SNOW_CELLS_PER_M))) - scene.snow.first_line;
     return select(NEVER, line * scene.snow.columns + column, column < scene.snow.columns && line < scene.snow.lines);
+}
+
+fn snow_inside(x: f32, z: f32) -> vec2<f32> {
+    let low_x = (f32(bitcast<i32>(scene.snow.first_column)) + 0.5) * (1.0 / SNOW_CELLS_PER_M);
+    let low_z = (f32(bitcast<i32>(scene.snow.first_line)) + 0.5) * (1.0 / SNOW_CELLS_PER_M);
+    let high_x = low_x + f32(scene.snow.columns - 1u) * (1.0 / SNOW_CELLS_PER_M);
+    let high_z = low_z + f32(scene.snow.lines - 1u) * (1.0 / SNOW_CELLS_PER_M);
+    return vec2<f32>(min(max(x, low_x), high_x), min(max(z, low_z), high_z));
 }
 
 fn snow_center(cell: u32) -> vec2<f32> {
@@ -160,6 +183,13 @@ fn snow_taken(cell: SnowCell, water: u32) -> SnowCell {
     }
     let share = f32(water) * reciprocal(f32(cell.water));
     return SnowCell(water, min(bitcast<u32>(i32(floor(f32(cell.depth) * share))), cell.depth));
+}
+
+fn left_over_snow(left: f32, depth_m: f32, lee_m: f32) -> f32 {
+    if (lee_m <= 0.0) {
+        return left;
+    }
+    return 1.0 - (1.0 - left) * max(1.0 - depth_m * reciprocal(lee_m), 0.0);
 }
 
 fn snow_drift(cell: SnowCell, rise_m: f32, left: f32, toward: f32) -> SnowCell {

@@ -16,7 +16,8 @@ struct BranchCatch {
 
 struct BranchRound {
     held: u32,
-    given: u32,
+    caught: u32,
+    lost: u32,
 }
 
 fn crown_columns() -> u32 {
@@ -104,10 +105,14 @@ fn branch_round(
         share += SHAKEN_SHARE;
     }
     let over = max(before - room, 0.0);
-    let falls = over + (before - over) * min(share, 1.0);
     let words = philox(scene.seed, vec4<u32>(row, STREAM_BRANCH, step_block.index, 0u));
-    let shed = min(round_at_random(falls, words.x), held);
-    return BranchRound(held - shed + caught, shed - caught);
+    let lump = min(max(share, LUMP_SHARE), 1.0);
+    var falls = over;
+    if (unit_float(words.y) * lump < share) {
+        falls += (before - over) * lump;
+    }
+    let lost = min(round_at_random(falls, words.x), held);
+    return BranchRound(held - lost + caught, caught, lost);
 }
 
 fn branch_snow_kg(row: u32) -> f32 {

@@ -64,6 +64,8 @@ crate::shared_constants! {
     pub const POPULATION_FOLLOWED: u32 = 64;
     /// Flag of a population: flakes of snow.
     pub const POPULATION_SNOW: u32 = 256;
+    /// Flag of a population: snow that falls from branches.
+    pub const POPULATION_BRANCH_SNOW: u32 = 1024;
     /// Flag of a population: what leaves its region through a side comes in through the opposite one.
     pub const POPULATION_THROUGH: u32 = 512;
     /// Particles set off within a cap of directions.

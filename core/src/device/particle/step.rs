@@ -10,9 +10,9 @@ use super::local_space::{ParticleFrame, carried_flight, in_frame, parent_frame, 
 use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
     MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_DORMANT,
-    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, POPULATION_ON_LEAVES,
-    POPULATION_THROUGH, ParticleStart, particle_life, particle_population, particle_state, with_more_hits,
-    with_particle_state,
+    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_BRANCH_SNOW, POPULATION_LOCAL,
+    POPULATION_ON_LEAVES, POPULATION_THROUGH, ParticleStart, particle_life, particle_population,
+    particle_state, with_more_hits, with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
 use crate::arith::lane::{Mask, Real, Word};
@@ -21,6 +21,7 @@ use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
 use crate::device::solid::near::may_meet_solids_within;
 use crate::device::terrain::ground::ground_met;
+use crate::device::tree::branch_fall::{fall_row, fall_start};
 use crate::particle::{ParticleMut, ParticleRows};
 
 /// Events of a particle in a step, to be added to the counts of its population.
@@ -123,6 +124,16 @@ pub fn slot_birth(
     let number = particle_population(particle.place.bits);
     let population = &cx.scene.populations[number as usize];
     let nest = &population.nest;
+    if (population.flags & POPULATION_BRANCH_SNOW) != 0 {
+        let row = fall_row(cx, slot - population.first_slot);
+        if row == NEVER || particle_state(particle.place.bits) == PARTICLE_ALIVE {
+            return 1.0;
+        }
+        change.born = 1;
+        particle_birth(cx, particle, number, row);
+        particle.place.position = fall_start(cx, row).to_array();
+        return 1.0;
+    }
     if nest.fan == 0 {
         let birth = &cx.step.births[number as usize];
         let among = birth_number(birth, population.count, slot - population.first_slot);

@@ -73,9 +73,17 @@ pub fn row_vector(row: Uint4) -> Vec3 {
 #[inline(always)]
 pub fn solid_at(cx: &Context<'_>, number: u32, seconds: f32) -> SolidAt {
     let first = (cx.scene.solids.first_row + number * SOLID_ROWS) as usize;
-    let Uint4([flags, half_x, half_y, half_z]) = cx.tables[first];
-    let Uint4([rounding, bound, friction, restitution]) = cx.tables[first + 1];
-    let Uint4(turn) = cx.tables[first + 3];
+    let rows = [cx.tables[first], cx.tables[first + 1], cx.tables[first + 2], cx.tables[first + 3]];
+    solid_of_rows(cx, number, rows, seconds)
+}
+
+/// The same by its rows of the tables.
+#[inline(always)]
+pub fn solid_of_rows(cx: &Context<'_>, number: u32, rows: [Uint4; 4], seconds: f32) -> SolidAt {
+    let [sizes, surface, center, turn] = rows;
+    let Uint4([flags, half_x, half_y, half_z]) = sizes;
+    let Uint4([rounding, bound, friction, restitution]) = surface;
+    let Uint4(turn) = turn;
     let mut half_m = Vec3::ZERO;
     if (flags & (SOLID_HULL | SOLID_GRID)) == 0 {
         half_m = Vec3::new(f32::from_bits(half_x), f32::from_bits(half_y), f32::from_bits(half_z));
@@ -89,7 +97,7 @@ pub fn solid_at(cx: &Context<'_>, number: u32, seconds: f32) -> SolidAt {
         bound_m: f32::from_bits(bound),
         friction: f32::from_bits(friction),
         restitution: f32::from_bits(restitution),
-        center: row_vector(cx.tables[first + 2]),
+        center: row_vector(center),
         turn: Quat::from(turn.map(f32::from_bits)),
         velocity: Vec3::ZERO,
         spin: Vec3::ZERO,

@@ -5,3 +5,4 @@
 pub mod ground;
 pub mod litter;
 pub mod snow;
+pub mod snow_print;

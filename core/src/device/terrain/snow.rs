@@ -60,8 +60,12 @@ crate::shared_constants! {
     pub const FRESH_DEPTH: f32 = 0.941_25;
     /// Units of depth per unit of water of old snow of 250 kg/m³.
     pub const OLD_DEPTH: f32 = 0.256;
-    /// Share of the open sky of cells on water, in which snow melts at once.
-    pub const SNOW_ON_WATER: f32 = -1.0;
+    /// Unit of the share of open sky, in the lower half of the second word of a floor.
+    pub const FLOOR_OPEN: f32 = 1.0 / 32_768.0;
+    /// That half on water, in which snow melts at once.
+    pub const FLOOR_ON_WATER: u32 = 0xffff;
+    /// Unit in m of the depth that fills a lee, in the upper half.
+    pub const FLOOR_LEE_M: f32 = 1.0 / 256.0;
     /// Way to a neighbour that touches at a corner over that to another.
     pub const ROOT_TWO: f32 = std::f32::consts::SQRT_2;
     /// Turn in which the last line meets the first.
@@ -85,6 +89,17 @@ pub struct SnowCell {
     pub depth: u32,
 }
 
+/// Ground, water or solid thing that a cell of snow lies on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SnowFloor {
+    /// Height in m.
+    pub height_m: f32,
+    /// Share of the sky that is open above it; below zero on water.
+    pub open: f32,
+    /// Depth of snow in m that fills the lee in which it lies; zero where there is none.
+    pub lee_m: f32,
+}
+
 /// Two cells that exchange snow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SnowPair {
@@ -105,6 +120,17 @@ pub struct SnowBetween<R: Real = f32> {
     pub x: R,
     /// Share of the way along z.
     pub z: R,
+}
+
+/// A floor of two words of the tables.
+#[inline(always)]
+pub fn snow_floor(height: u32, word: u32) -> SnowFloor {
+    let open = word & 0xffff;
+    SnowFloor {
+        height_m: f32::from_bits(height),
+        open: if open == FLOOR_ON_WATER { -1.0 } else { open.to_real() * FLOOR_OPEN },
+        lee_m: (word >> 16).to_real() * FLOOR_LEE_M,
+    }
 }
 
 /// Depth in m over the cell of a number, as far as leaves and wind meet it.
@@ -156,6 +182,17 @@ pub fn snow_cell(snow: &SnowBlock, x: f32, z: f32) -> u32 {
     let column = (x * SNOW_CELLS_PER_M).floor().to_whole().wrapping_sub(snow.first_column);
     let line = (z * SNOW_CELLS_PER_M).floor().to_whole().wrapping_sub(snow.first_line);
     if column < snow.columns && line < snow.lines { line * snow.columns + column } else { NEVER }
+}
+
+/// Place within the grid that is next to a place.
+#[inline(always)]
+pub fn snow_inside(snow: &SnowBlock, x: f32, z: f32) -> [f32; 2] {
+    let within = |at: f32, first: u32, count: u32| {
+        let low = (first.cast_signed() as f32 + 0.5) * (1.0 / SNOW_CELLS_PER_M);
+        let high = low + (count - 1).to_real() * (1.0 / SNOW_CELLS_PER_M);
+        at.max(low).min(high)
+    };
+    [within(x, snow.first_column, snow.columns), within(z, snow.first_line, snow.lines)]
 }
 
 /// Centre x, z of a cell in m.
@@ -290,6 +327,15 @@ pub fn snow_taken(cell: SnowCell, water: u32) -> SnowCell {
     }
     let share = water.to_real() * reciprocal(cell.water.to_real());
     SnowCell { water, depth: (cell.depth.to_real() * share).floor().to_whole().min(cell.depth) }
+}
+
+/// Share of the wind that is left over snow of so much depth, of that which shelter leaves there: none of it is missing where a lee is filled.
+#[inline(always)]
+pub fn left_over_snow(left: f32, depth_m: f32, lee_m: f32) -> f32 {
+    if lee_m <= 0.0 {
+        return left;
+    }
+    1.0 - (1.0 - left) * (1.0 - depth_m * reciprocal(lee_m)).max(0.0)
 }
 
 /// Snow that the wind takes from a cell over an edge to one whose surface is so many metres higher. `left` is the share of the wind that shelter

@@ -9,7 +9,7 @@
 //! squares show. Once a round each segment whose middle is above the square takes its share of
 //! that, by how much of the square's leaves and wood it has, and the less the more it bears already: `dI = (I* - I)(1 - exp(-C P/I*))` in small steps
 //! (Hedstrom and Pomeroy 1998), C being the share of the sky that crowns cover. I* grows with the area of leaves and twigs, and falls for wood that stands
-//! steep. What is above I*, because a branch has bent down or has lost leaves, slides off; a share falls as warmth and wind have it (Roesch et al. 2001),
+//! steep. What is above I*, because a branch has bent down or has lost leaves, slides off; a share falls as warmth and wind have it (Roesch et al. 2001), in lumps,
 //! and much more at once where a branch swings fast. What is not held falls on, evenly over the square. All of it are integers, so nothing is lost.
 
 use crate::arith::lane::{Real, Word};
@@ -38,6 +38,8 @@ crate::shared_constants! {
     pub const SHAKING_SQUARED: f32 = 1.0;
     /// Share of its snow that it then loses in a round: assumed.
     pub const SHAKEN_SHARE: f32 = 0.25;
+    /// Least share of its snow that a branch loses at once to warmth and wind, in as few rounds as make their rate: assumed.
+    pub const LUMP_SHARE: f32 = 0.25;
     /// Random words of flakes that crowns catch.
     pub const STREAM_CROWN: u32 = 0x8000_0002;
     /// Random words of snow that falls from branches.
@@ -64,8 +66,10 @@ pub struct BranchCatch {
 pub struct BranchRound {
     /// Units of water on it.
     pub held: u32,
-    /// Units that it gives to its square beyond those that it takes from it, two's complement.
-    pub given: u32,
+    /// Units that it takes from its square.
+    pub caught: u32,
+    /// Units that it loses.
+    pub lost: u32,
 }
 
 /// Number of the squares along x.
@@ -167,6 +171,7 @@ pub fn branch_offer(catch: BranchCatch, fresh: u32, area: u32) -> f32 {
 }
 
 /// Snow of the segment in a row after a round in which it may take so much.
+#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
 pub fn branch_round(
     cx: &Context<'_>,
@@ -184,10 +189,14 @@ pub fn branch_round(
         share += SHAKEN_SHARE;
     }
     let over = (before - room).max(0.0);
-    let falls = over + (before - over) * share.min(1.0);
-    let [word, ..] = philox(cx.scene.seed, [row, STREAM_BRANCH, cx.step.index, 0]);
-    let shed = round_at_random(falls, word).min(held);
-    BranchRound { held: held - shed + caught, given: shed.wrapping_sub(caught) }
+    let [word, chance, ..] = philox(cx.scene.seed, [row, STREAM_BRANCH, cx.step.index, 0]);
+    let lump = share.max(LUMP_SHARE).min(1.0);
+    let mut falls = over;
+    if unit_float(chance) * lump < share {
+        falls += (before - over) * lump;
+    }
+    let lost = round_at_random(falls, word).min(held);
+    BranchRound { held: held - lost + caught, caught, lost }
 }
 
 /// Mass in kg of the snow on the segments of these rows.

@@ -89,6 +89,7 @@ impl Scene {
             return Some(match particles.release {
                 ParticleRelease::Burst { .. }
                 | ParticleRelease::BurningLeaves
+                | ParticleRelease::BranchSnow
                 | ParticleRelease::Snowfall => f64::INFINITY,
                 ParticleRelease::Rate { per_s, .. } => libm::floor(births / (f64::from(per_s) * dt_s)),
                 ParticleRelease::Poisson { per_s, .. } => {

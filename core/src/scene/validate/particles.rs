@@ -74,7 +74,7 @@ impl Particles {
                     ("from_s", from_s.into(), limits::FROM_S),
                 ])?;
             }
-            ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => {}
+            ParticleRelease::BurningLeaves | ParticleRelease::BranchSnow | ParticleRelease::Snowfall => {}
         }
         check_spread(self.speed_m_s, "speed_m_s", &limits::PARTICLE_SPEED_M_S, at)?;
         if let Some(life_s) = self.life_s {
@@ -152,7 +152,7 @@ impl Particles {
         match self.release {
             ParticleRelease::Burst { at_s } => at_s,
             ParticleRelease::Rate { from_s, .. } | ParticleRelease::Poisson { from_s, .. } => from_s,
-            ParticleRelease::BurningLeaves => 0.0,
+            ParticleRelease::BurningLeaves | ParticleRelease::BranchSnow => 0.0,
             // The air is full of it at time zero.
             ParticleRelease::Snowfall => -self.life_s.map_or(0.0, Spread::highest),
         }
@@ -180,7 +180,10 @@ impl Particles {
     fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
         let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
         let (per_s, deviations) = match self.release {
-            ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => {
+            ParticleRelease::Burst { .. }
+            | ParticleRelease::BurningLeaves
+            | ParticleRelease::BranchSnow
+            | ParticleRelease::Snowfall => {
                 return Ok(());
             }
             ParticleRelease::Rate { per_s, .. } => (f64::from(per_s), 0.0),

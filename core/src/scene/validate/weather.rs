@@ -66,6 +66,28 @@ impl Scene {
                 ("None".into(), "a time in which flakes come down".into())
             })?;
         }
+        for (index, particles) in self.particles.iter().enumerate().filter(|(_, one)| one.is_branch_snow()) {
+            let at = check.inside(format!("particles[{index}]"));
+            at.holds(self.weather.is_some(), "release", || {
+                ("BranchSnow".into(), "Burst, Rate or Poisson, in a scene without weather".into())
+            })?;
+            at.holds(particles.meets == Meets::Die, "meets", || {
+                (
+                    format!("{:?}", particles.meets),
+                    "Die: what falls from branches becomes part of the snow".into(),
+                )
+            })?;
+            at.holds(particles.life_s.is_some(), "life_s", || {
+                ("None".into(), "a time in which it comes down".into())
+            })?;
+        }
+        let falls = self.particles.iter().filter(|particles| particles.is_branch_snow());
+        check.holds(falls.count() <= 1, "particles", || {
+            (
+                "several with release: BranchSnow".into(),
+                "at most one: all snow of branches falls as its particles".into(),
+            )
+        })?;
         let falls = self.particles.iter().filter(|particles| particles.release == ParticleRelease::Snowfall);
         check.holds(falls.count() <= 1, "particles", || {
             ("several with release: Snowfall".into(), "at most one: all snow falls as its flakes".into())
