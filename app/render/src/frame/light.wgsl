@@ -11,8 +11,8 @@
 @group(1) @binding(3) var clamp_sampler: sampler;
 @group(1) @binding(4) var noise: texture_2d<f32>;
 @group(1) @binding(5) var repeat_sampler: sampler;
-// Top view of the rectangle on which snow lies: ground that melted snow has soaked.
-@group(1) @binding(6) var wet_map: texture_2d<f32>;
+// Top view of the rectangle on which snow lies: ground that melted snow has soaked, and leaves that hang under snow.
+@group(1) @binding(6) var snow_map: texture_2d<f32>;
 // Radiance by latitude and longitude.
 @group(1) @binding(7) var sky_map: texture_2d<f32>;
 @group(1) @binding(8) var sky_sampler: sampler;
@@ -81,7 +81,15 @@ fn wetness(at: vec2<f32>) -> f32 {
     if !HAS_SNOW {
         return 0.0;
     }
-    return textureSampleLevel(wet_map, clamp_sampler, (at - frame.wet_corner_m) * frame.wet_per_m, 0.0).r;
+    return textureSampleLevel(snow_map, clamp_sampler, (at - frame.snow_corner_m) * frame.snow_per_m, 0.0).r;
+}
+
+// Share to which snow covers leaves that hang above a place on the ground.
+fn snow_on_leaves(at: vec2<f32>) -> f32 {
+    if !HAS_SNOW {
+        return 0.0;
+    }
+    return textureSampleLevel(snow_map, clamp_sampler, (at - frame.snow_corner_m) * frame.snow_per_m, 0.0).g;
 }
 
 // Share of the light from within a wet matt surface that its film of water mirrors back into it.

@@ -14,7 +14,7 @@ use crate::light::{Daylight, prefiltered};
 pub(crate) struct LightGroup {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
-    /// Shadow maps, shade map, noise and wet map.
+    /// Shadow maps, shade map, noise and snow map.
     views: [(u32, wgpu::TextureView); 4],
     skies: [wgpu::TextureView; 2],
     /// Lights of fires.
@@ -27,7 +27,7 @@ impl LightGroup {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         shadow_maps: &wgpu::TextureView,
-        [shade_map, wet_map]: [&wgpu::TextureView; 2],
+        [shade_map, snow_map]: [&wgpu::TextureView; 2],
         daylight: &Daylight,
     ) -> Self {
         let flat = wgpu::TextureViewDimension::D2;
@@ -64,7 +64,7 @@ impl LightGroup {
             (8, device.create_sampler(&around)),
         ];
         let noise = noise_view(device, queue);
-        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise), (6, wet_map.clone())];
+        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise), (6, snow_map.clone())];
         let skies = skies(device, queue, daylight);
         let fires = fire_light::buffer(device);
         let group = bind(device, &layout, (&views, &fires), &samplers, &skies);

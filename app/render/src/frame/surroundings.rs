@@ -85,9 +85,9 @@ shared_struct! {
         /// Direction that the park's path leads, x and z.
         path_lead: [f32; 2],
         /// Corner of least x and z of the rectangle on which snow lies.
-        pub(crate) wet_corner_m: [f32; 2],
+        pub(crate) snow_corner_m: [f32; 2],
         /// Reciprocals of its edges in metres.
-        pub(crate) wet_per_m: [f32; 2],
+        pub(crate) snow_per_m: [f32; 2],
         /// First word of the snow on branches in the buffer of the bed; 0 without any.
         pub(crate) branch_snow_word: u32,
     }
@@ -210,8 +210,8 @@ impl Surroundings {
             texels_m: maps.map(|map| map.texel_m),
             ambient: self.ambient.map(|light| Float4(light.extend(0.0).to_array())),
             path_lead: self.path.lead.to_array(),
-            wet_corner_m: [0.0; 2],
-            wet_per_m: [0.0; 2],
+            snow_corner_m: [0.0; 2],
+            snow_per_m: [0.0; 2],
             branch_snow_word: 0,
             padding: [0; 4],
         }

@@ -28,6 +28,8 @@ struct Varyings {
     @location(9) @interpolate(perspective, centroid) air: vec4<f32>,
     // Share of the way that its front has run, time and length of that way, and 1 while it burns.
     @location(10) @interpolate(flat) front: vec4<f32>,
+    // Share to which snow lies on it while it hangs.
+    @location(11) @interpolate(flat) snowy: f32,
 }
 
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
@@ -68,6 +70,7 @@ fn vertex(in: LeafVertex) -> Varyings {
     out.air = air_before(point.world);
     let front = front_of(record);
     out.front = vec4(front.way, front.whole_s, front.whole_m, front.lit);
+    out.snowy = select(snow_on_leaves(point.world.xz), 0.0, is_free);
     return out;
 }
 
@@ -170,10 +173,19 @@ fn fragment(in: Varyings) -> Painted {
     let wet = wetness(in.world.xz) * in.settled;
     reflectance = wet_reflectance(min(reflectance, vec3(0.8)), wet);
     var wax = 1.0;
+    if in.snowy > 0.0 {
+        // It lies on what is level first, and thickest in the middle; from below it only keeps the light out.
+        let edge = length(in.uv - 0.5) * 0.9 + 0.5 * (unit_from(hash_u32(bitcast<u32>(in.attitude.z))) - 0.5);
+        let lies = smoothstep(0.0, 0.25, in.snowy * (0.35 + 0.9 * abs(blade.y)) - 0.75 * edge) * smoothstep(0.15, 0.5, abs(blade.y));
+        transmittance *= 1.0 - 0.85 * lies;
+        let top = lies * f32(blade.y * seen > 0.0);
+        reflectance = mix(reflectance, vec3(0.84, 0.86, 0.89), top);
+        wax = 1.0 - top;
+    }
     if LEAVES_BURN {
         reflectance = burnt_reflectance(tissue, reflectance);
         transmittance *= (1.0 - 0.6 * tissue.dried) * (1.0 - tissue.charred);
-        wax = 1.0 - 0.85 * tissue.charred;
+        wax *= 1.0 - 0.85 * tissue.charred;
     }
     transmittance = min(transmittance, MOST - reflectance);
 

@@ -102,8 +102,8 @@ impl Renderer {
             frame.snow_depth_m = snow.open_depth_m(input.time_s);
             snow.prepare(&self.device, &self.queue, world.bed.as_ref());
             frame.branch_snow_word = snow.branch_word(world.bed.as_ref());
-            (frame.wet_corner_m, frame.wet_per_m) = (self.wet_map.corner_m, self.wet_map.per_m);
-            self.wet_map.draw(&self.device, encoder, &snow.uniform, world.bed.as_ref());
+            (frame.snow_corner_m, frame.snow_per_m) = (self.snow_map.corner_m, self.snow_map.per_m);
+            self.snow_map.draw(&self.device, encoder, &snow.uniform, world.bed.as_ref());
         }
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {

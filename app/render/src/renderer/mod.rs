@@ -44,9 +44,9 @@ use crate::particles::particle_pass::ParticlePass;
 use crate::scenery::grass_pass::GrassPass;
 use crate::scenery::ground_pass::GroundPass;
 use crate::scenery::sky_pass::SkyPass;
+use crate::scenery::snow_map::SnowMap;
 use crate::scenery::snow_pass::SnowPass;
 use crate::scenery::water_pass::WaterPass;
-use crate::scenery::wet_map::WetMap;
 use crate::shadows::ShadowPass;
 use crate::trees::SceneTrees;
 use crate::trees::bark_mesh::BarkBuffers;
@@ -97,7 +97,7 @@ pub struct Renderer {
     fruit_pass: FruitPass,
     grass_pass: GrassPass,
     ground_pass: GroundPass,
-    wet_map: WetMap,
+    snow_map: SnowMap,
     snow_pass: Option<SnowPass>,
     water_pass: Option<WaterPass>,
     tree_pass: TreePass,
@@ -170,8 +170,8 @@ impl Renderer {
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let surroundings = Surroundings::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
         frame.set_sun(queue, &land, surroundings.daylight.sun.direction);
-        let wet_map = WetMap::new(device, snow.map(|compiled| &compiled.block().snow));
-        let from_above = [&shade_pass.map, &wet_map.view];
+        let snow_map = SnowMap::new(device, queue, snow);
+        let from_above = [&shade_pass.map, &snow_map.view];
         let light = LightGroup::new(device, queue, &shadow_pass.maps, from_above, &surroundings.daylight);
         let objects = objects.map(|objects| {
             let pass = ObjectPass::new(device, &frame, &light, &objects);
@@ -202,7 +202,7 @@ impl Renderer {
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, scene_trees),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
-            wet_map,
+            snow_map,
             snow_pass: snow.map(|compiled| SnowPass::new(device, queue, &frame, &light, compiled)),
             water_pass: WaterPass::new(device, &frame, &light, &land),
             tree_pass: TreePass::new(device, &frame, &light, &trees),

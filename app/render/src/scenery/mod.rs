@@ -5,25 +5,28 @@
 pub(crate) mod grass_pass;
 pub(crate) mod ground_pass;
 pub(crate) mod sky_pass;
+pub(crate) mod snow_map;
 pub(crate) mod snow_pass;
 mod terrain_mesh;
 pub(crate) mod water_pass;
-pub(crate) mod wet_map;
 
 use windfall_core::layout::WgslStruct;
+
+use windfall_core::device::terrain::snow;
 
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
-    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants()];
+    let water = snow::wgsl_constants().into_iter().filter(|(name, _)| *name == "FLOOR_ON_WATER").collect();
+    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants(), water];
     shaders.extend([(
         "scenery/structs",
         declarations(lists) + &grass_pass::GrassCell::declaration() + &snow_pass::SnowUniform::declaration(),
     )]);
     shaders.extend(wgsl_files!(
-        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass", "wet_map"
+        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass", "snow_map"
     ));
     shaders
 }

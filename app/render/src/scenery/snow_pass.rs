@@ -6,9 +6,11 @@ use windfall_core::CompiledScene;
 use windfall_core::blocks::SceneBlock;
 use windfall_core::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
 use windfall_core::device::terrain::snow::{
-    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_MELTED, SNOW_STEP_M, SNOW_WATER_MM,
+    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_MELTED, SNOW_STEP_M, SNOW_UNIT_KG, SNOW_WATER_MM,
 };
-use windfall_core::device::tree::branch_snow::branch_word;
+use windfall_core::device::tree::branch_snow::{
+    CROWN_CELLS, CROWN_UNITS_M2, branch_word, crown_columns, crown_squares,
+};
 use windfall_core::shared_struct;
 use windfall_wgpu::BedColumn;
 
@@ -21,10 +23,12 @@ use crate::gpu::upload;
 
 /// Melted snow in mm of water that soaks the ground: set by eye.
 const SOAKED_MM: f32 = 1.0;
+/// Snow in kg per m² of leaves and wood that covers leaves which hang: set by eye.
+const COVERED_KG_M2: f32 = 1.2;
 
 shared_struct! {
     /// Grids of snow and litter, and where their words are in the buffer of the bed.
-    pub(crate) struct SnowUniform, padding 12 {
+    pub(crate) struct SnowUniform, padding 8 {
         /// Cells of snow along x and z.
         snow_cells: [u32; 2],
         /// Numbers of the first column and line from the origin on.
@@ -33,6 +37,8 @@ shared_struct! {
         litter_cells: [u32; 2],
         /// Numbers of the first of them.
         litter_first: [i32; 2],
+        /// Square metres along x and z; 0 without trees.
+        squares: [u32; 2],
         /// First word of the bed.
         bed_word: u32,
         /// First word of the snow in it.
@@ -51,6 +57,12 @@ shared_struct! {
         cell_m: f32,
         /// Share of a soaked ground per unit of water that has melted.
         soaked_per_unit: f32,
+        /// First word of the snow on branches.
+        branch_word: u32,
+        /// Cells along the edge of a square metre.
+        square_cells: u32,
+        /// Share of leaves under snow per unit of water and unit of area of the segments that bear them.
+        covered_per_unit: f32,
     }
 }
 
@@ -62,7 +74,7 @@ pub(crate) struct SnowPass {
     layout: wgpu::BindGroupLayout,
     /// The grids.
     pub(crate) uniform: wgpu::Buffer,
-    lies_on: wgpu::Buffer,
+    floors: wgpu::Buffer,
     group: Option<wgpu::BindGroup>,
     cells: u32,
 }
@@ -102,10 +114,10 @@ impl SnowPass {
         let snow = &compiled.block().snow;
         let cells = snow.columns * snow.lines;
         let rows = &compiled.tables()[snow.first_row as usize..][..cells.div_ceil(2) as usize];
-        let lies_on = upload::buffer(
+        let floors = upload::buffer(
             device,
             queue,
-            "snow lies on",
+            "floors of snow",
             wgpu::BufferUsages::STORAGE,
             bytemuck::cast_slice(rows),
         );
@@ -115,7 +127,7 @@ impl SnowPass {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Self { compiled: compiled.clone(), pipeline, layout, uniform, lies_on, group: None, cells }
+        Self { compiled: compiled.clone(), pipeline, layout, uniform, floors, group: None, cells }
     }
 
     /// Depth in metres of the snow in the open at a time in seconds.
@@ -146,7 +158,7 @@ impl SnowPass {
         let resources = [
             self.uniform.as_entire_binding(),
             bed.buffer.as_entire_binding(),
-            self.lies_on.as_entire_binding(),
+            self.floors.as_entire_binding(),
         ];
         let entries: Vec<_> = (0..)
             .zip(resources)
@@ -171,6 +183,7 @@ impl SnowPass {
 fn uniform_of(block: &SceneBlock, bed_word: u32) -> SnowUniform {
     let (snow, litter) = (&block.snow, &block.litter);
     let first = |first: u32| first.cast_signed();
+    let columns = crown_columns(snow);
     const { assert!(SNOW_CELLS_PER_M == LITTER_CELLS_PER_M, "one grid for both") };
     SnowUniform {
         snow_cells: [snow.columns, snow.lines],
@@ -186,6 +199,10 @@ fn uniform_of(block: &SceneBlock, bed_word: u32) -> SnowUniform {
         step_m: SNOW_STEP_M,
         cell_m: 1.0 / SNOW_CELLS_PER_M,
         soaked_per_unit: SNOW_WATER_MM / SOAKED_MM,
+        branch_word: bed_word + branch_word(snow, 0),
+        square_cells: CROWN_CELLS,
+        covered_per_unit: SNOW_UNIT_KG * CROWN_UNITS_M2 / COVERED_KG_M2,
+        squares: if snow.branches == 0 { [0; 2] } else { [columns, crown_squares(snow) / columns] },
         ..bytemuck::Zeroable::zeroed()
     }
 }

@@ -9,8 +9,11 @@
 
 @group(2) @binding(0) var<uniform> snow: SnowUniform;
 @group(2) @binding(1) var<storage, read> bed: array<u32>;
-// Height in metres and share of open sky of what each cell lies on.
-@group(2) @binding(2) var<storage, read> lies_on: array<vec2<f32>>;
+// Floors of the cells: bits of the height in metres, and a word of which the lower half says if there is water.
+@group(2) @binding(2) var<storage, read> floors: array<vec2<u32>>;
+
+// Width in cells of the rim over which snow sinks to the ground beyond the rectangle, as white without it.
+const RIM_CELLS: i32 = 12;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -20,14 +23,22 @@ struct Varyings {
     @location(2) depth_m: f32,
 }
 
-// Height in metres of what a cell lies on, and its depth; less than no depth outside of the grid.
+// Height in metres of what a cell lies on, and its depth; less than no depth outside of the grid. Water is as far below as any edge.
 fn level_of(cell: vec2<i32>) -> vec2<f32> {
     if any(cell < vec2(0)) || any(cell >= vec2<i32>(snow.snow_cells)) {
         return vec2(0.0, -1.0);
     }
     let number = u32(cell.y) * snow.snow_cells.x + u32(cell.x);
     let cells = snow.snow_cells.x * snow.snow_cells.y;
-    return vec2(lies_on[number].x, f32(bed[snow.snow_word + cells + number]) * snow.depth_unit_m);
+    let floor_m = bitcast<f32>(floors[number].x);
+    if is_water(number) {
+        return vec2(floor_m - 2.0 * snow.step_m, 0.0);
+    }
+    return vec2(floor_m, f32(bed[snow.snow_word + cells + number]) * snow.depth_unit_m);
+}
+
+fn is_water(number: u32) -> bool {
+    return (floors[number].y & 0xffffu) == FLOOR_ON_WATER;
 }
 
 // Height of litter in metres at a corner of cells, by its number from the origin on.
@@ -85,8 +96,14 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     var out: Varyings;
     out.depth_m = depth_m;
     out.normal = vec3(-slope.x, 1.0, -slope.y);
-    out.world = vec3(place.x, sums.base_m / max(sums.level_count, 1.0) + litter_m + depth_m, place.y);
+    let inner = min(at, vec2<i32>(snow.snow_cells) - at);
+    let risen = clamp(f32(min(inner.x, inner.y)) / f32(RIM_CELLS), 0.0, 1.0);
+    out.world = vec3(place.x, sums.base_m / max(sums.level_count, 1.0) + litter_m + max(depth_m * risen, 0.002), place.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
+    // No square lies on water.
+    if is_water(number) {
+        out.clip = vec4(0.0, 0.0, -1.0, 1.0);
+    }
     return out;
 }
 

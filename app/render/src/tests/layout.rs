@@ -180,7 +180,7 @@ const WITH_AXES: [&str; 8] = [
 const LISTS: [&str; 4] = ["heights", "kernel", "strips", "texels_m"];
 
 /// Buffers that are rows of vectors: columns of the branches, whose rows are positions and quaternions.
-const ROWS: [&str; 5] = ["branch_base", "branch_pose", "rest_base", "rest_pose", "lies_on"];
+const ROWS: [&str; 5] = ["branch_base", "branch_pose", "rest_base", "rest_pose", "floors"];
 
 /// Returns true for vectors of two or four. Vectors of three have axes.
 fn is_flat(inner: &TypeInner) -> bool {

@@ -125,6 +125,8 @@ struct Drawn<'a> {
     particles: Option<ParticleColumns<'a>>,
     burn: Option<Burn>,
     bed: Option<BedColumn<'a>>,
+    /// The leaf lies level, and else faces the camera.
+    is_level: bool,
 }
 
 impl Bench {
@@ -178,6 +180,16 @@ impl Bench {
         self.draw_world(drawn, 0, 60_000, 0.0, 0.0)
     }
 
+    /// The same over a level leaf in a state, the first of the scene's.
+    pub(crate) fn draw_snowy_leaf(&mut self, words: &[u32], state: u32) -> RgbaImage {
+        let (device, queue) = (self.gpu.device(), self.gpu.queue());
+        let usage = wgpu::BufferUsages::STORAGE;
+        let buffer = upload::buffer(device, queue, "bed", usage, bytemuck::cast_slice(words));
+        let bed = BedColumn { buffer: &buffer, first_word: 0 };
+        let drawn = Drawn { bed: Some(bed), is_level: true, ..Drawn::default() };
+        self.draw_world(drawn, state, 60_000, 0.0, 0.0)
+    }
+
     /// Draws one big falling leaf that burns as `burn` says.
     pub(crate) fn draw_burning(&mut self, burn: Burn, time_s: f64) -> RgbaImage {
         self.draw_world(Drawn { burn: Some(burn), ..Drawn::default() }, STATE_FALLING, 60_000, 0.0, time_s)
@@ -196,7 +208,7 @@ impl Bench {
 
     fn draw_world(
         &mut self,
-        Drawn { branches, particles, burn, bed }: Drawn<'_>,
+        Drawn { branches, particles, burn, bed, is_level }: Drawn<'_>,
         state: u32,
         size: u32,
         offset_m: f32,
@@ -209,7 +221,8 @@ impl Bench {
             |words: [u32; 4]| upload::buffer(device, queue, "column", usage, bytemuck::bytes_of(&words));
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
-        let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
+        let turned = if is_level { [0.0, 0.0, 0.0, 1.0f32] } else { [half, 0.0, 0.0, half] };
+        let attitude = column(turned.map(f32::to_bits));
         let (schedule, identity) = (column([0, 0, size, 0]), column([0, 0, 0, 0x1_2345]));
         let leaves = LeafColumns {
             place: &place,

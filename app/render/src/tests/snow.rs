@@ -4,7 +4,8 @@
 
 use glam::{Vec2, Vec3};
 use image::RgbaImage;
-use windfall_core::scene::{Camera, Exposure, Tree, Weather};
+use windfall_core::device::leaf::record::{STATE_ATTACHED, STATE_FALLING};
+use windfall_core::scene::{Camera, Exposure, Tree, Water, Weather};
 use windfall_core::{CompiledScene, World};
 
 use super::{Bench, SIZE, bench, bench_with};
@@ -55,6 +56,29 @@ fn snow_is_white_where_it_lies() {
     assert!((bare[1] - deep[1]).abs() < 2.0, "nothing lies on the right: {bare:?}, {deep:?}");
 }
 
+/// Where water stands no snow is drawn, whatever lies beside it.
+#[test]
+fn no_snow_is_drawn_on_water() {
+    let bench_on = |height_m: f32| {
+        bench(|scene| {
+            scene.weather = Some(Weather {
+                size_m: Vec2::splat(16.0),
+                snow_mm_h: vec![(0.0, 0.0)],
+                ..Weather::default()
+            });
+            scene.ground.water = Some(Water { height_m });
+            scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 };
+        })
+    };
+    for (height_m, is_drawn) in [(-0.5, true), (0.3, false)] {
+        let mut bench = bench_on(height_m);
+        let world = World::build(&bench.scene).expect("valid");
+        let bare = bench.draw_snow(&world.bed.words);
+        let seen = super::differing(&bare, &bench.draw_snow(&covered(&world, 10)));
+        assert_eq!(seen > 1000, is_drawn, "water at {height_m} m: {seen} pixels differ");
+    }
+}
+
 /// Heaps stand above what is level: their near slopes hide more of what is behind.
 #[test]
 fn snow_stands_as_high_as_it_is_deep() {
@@ -98,6 +122,35 @@ fn snow_on_branches_is_white() {
     let changed: Vec<_> = bare.pixels().zip(laden.pixels()).filter(|(a, b)| a != b).collect();
     let brighter = changed.iter().filter(|(a, b)| sum(b) > sum(a)).count();
     assert!(changed.len() > 100 && brighter * 10 > changed.len() * 8, "{brighter} of {}", changed.len());
+}
+
+/// A leaf that hangs over laden branches is white, one that falls there is as it was.
+#[test]
+fn snow_lies_on_leaves_that_hang() {
+    let mut bench = bench_with(|scene| {
+        let size_m = Vec2::splat(16.0);
+        scene.weather = Some(Weather { size_m, snow_mm_h: vec![(0.0, 0.0)], ..Weather::default() });
+        scene.trees = vec![Tree { kind: "maple".into(), at_m: [0.0, 0.0], ..Tree::default() }];
+        // The leaf is six metres before the target.
+        scene.view.camera = Camera {
+            eye_m: Vec3::new(0.0, 7.0, 9.0),
+            target_m: Vec3::new(0.0, 5.0, -4.0),
+            vertical_fov_deg: 60.0,
+        };
+        scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 };
+        SceneTrees::of(scene, CompiledScene::compile(scene).expect("valid").forest())
+    });
+    let world = World::build(&bench.scene).expect("valid");
+    let mut laden = world.bed.clone();
+    laden.branch_snow_mut(world.compiled.block()).held.fill(400_000);
+    let beds = [&world.bed.words, &laden.words];
+    let [bare, white] = beds.map(|words| bench.draw_snowy_leaf(words, STATE_ATTACHED));
+    let [falling, falling_too] = beds.map(|words| bench.draw_snowy_leaf(words, STATE_FALLING));
+    let sum = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().copied().map(f64::from).sum::<f64>();
+    let hanging = bare.pixels().zip(white.pixels()).zip(falling.pixels().zip(falling_too.pixels()));
+    let changed: Vec<_> = hanging.filter(|((a, b), (c, d))| a != b && c == d).map(|(pair, _)| pair).collect();
+    let brighter = changed.iter().filter(|(a, b)| sum(b) > sum(a) + 30.0).count();
+    assert!(brighter > 100 && brighter * 10 > changed.len() * 6, "{brighter} of {}", changed.len());
 }
 
 /// A bed without snow, in some cells of which, by column and line, so much has melted in mm of water.
