@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    bench, export, flight, info, leaf, litter, motions, render, simulate, study, tree, view,
+    bench, drift, export, flight, info, leaf, litter, motions, render, simulate, study, tree, view,
 };
 use crate::run::terminal;
 
@@ -43,6 +43,8 @@ pub enum Command {
     Flight(flight::Arguments),
     /// Blow at leaves that lie on the ground, and measure which move and how.
     Litter(litter::Arguments),
+    /// Let snow drift behind a fence, and measure the drift.
+    Drift(drift::Arguments),
     /// Drop leaves under many settings of a scene, and compare how they fall and where they land.
     Study(study::Arguments),
     /// Write the motion tables of every species of a scene as text files.
@@ -66,6 +68,7 @@ impl Command {
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Flight(arguments) => flight::run(&arguments),
             Self::Litter(arguments) => litter::run(&arguments),
+            Self::Drift(arguments) => drift::run(&arguments),
             Self::Study(arguments) => study::run(&arguments),
             Self::Motions(arguments) => motions::run(&arguments),
             Self::Leaf(command) => command.run(),

@@ -3,6 +3,7 @@
 //! One file or folder per command, each with its options and what it does. Nothing but the command line imports them.
 
 pub(crate) mod bench;
+pub(crate) mod drift;
 pub(crate) mod export;
 pub(crate) mod flight;
 pub(crate) mod info;

@@ -5,6 +5,7 @@
 mod boundaries;
 mod colors;
 pub(crate) mod drop_paths;
+pub(crate) mod fence_drift;
 pub(crate) mod litter_onset;
 pub(crate) mod picture;
 pub(crate) mod regime_diagram;

@@ -7,11 +7,12 @@
 //! [`Variation`]s say which fields take which values, [`place::SceneTree`] puts them there, and every combination is a
 //! [`Point`]; [`drops`] makes of a point's scene one in which every leaf falls once, [`Summary`] are its numbers, and
 //! [`StudyFolder`] keeps finished points, so that an interrupted study goes on. [`shedding`] counts leaves that a crown loses,
-//! [`litter_tunnel`] leaves on the ground that the wind moves.
+//! [`litter_tunnel`] leaves on the ground that the wind moves, and [`fence_drift`] the snow that a fence keeps.
 
 pub(crate) mod descent;
 pub(crate) mod drops;
 mod experiment;
+pub(crate) mod fence_drift;
 pub(crate) mod folder;
 pub(crate) mod landing;
 pub(crate) mod litter_tunnel;

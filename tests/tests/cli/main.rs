@@ -6,6 +6,7 @@ mod common_cli;
 
 mod bad_input;
 mod blobs;
+mod drift;
 mod examples;
 mod export;
 mod export_gltf;
