@@ -280,7 +280,7 @@ impl Simulator for CpuSimulator {
                 let cx = compiled.context(&step_blocks[0]);
                 land_flakes(&cx, particles, bed);
                 step_branch_snow(&cx, branches, bed);
-                step_snow(&cx, bed);
+                step_snow(&cx, bed, simd);
                 press_snow(&cx, bed);
             }
             count

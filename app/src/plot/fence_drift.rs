@@ -14,7 +14,7 @@ const TABLER: [f64; 2] = [30.0, 1.2];
 /// Their section in heights squared.
 const TABLER_SECTION: f64 = 19.3;
 /// Part of the plot, in heights before and behind the fence.
-const SHOWN: [f64; 2] = [-10.0, 45.0];
+const SHOWN: [f64; 2] = [-10.0, 60.0];
 const SNOW: RGBColor = RGBColor(52, 104, 158);
 
 /// Draws the drift at all its hours.

@@ -49,7 +49,7 @@ pub(crate) struct Fence {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Drift {
     pub(crate) hours: f64,
-    /// Section behind the fence in heights squared.
+    /// Section of the drift behind the fence in heights squared, up to where next to nothing lies.
     pub(crate) section: f64,
     /// Length behind it in heights.
     pub(crate) length: f64,
@@ -139,26 +139,26 @@ impl Fence {
         let height_m = f64::from(self.height_m);
         let cell = 1.0 / f64::from(SNOW_CELLS_PER_M) / height_m;
         let first = f64::from(block.snow.first_column.cast_signed());
+        // Cells exchange snow in pairs, which leaves ripples from one to the next.
         let profile: Vec<[f64; 2]> = (0..)
-            .zip(depths)
-            .map(|(column, depth)| {
-                let behind = (first + f64::from(column) + 0.5) * cell;
-                [behind, f64::from(*depth) * f64::from(SNOW_DEPTH_M) / height_m]
+            .step_by(2)
+            .zip(depths.as_chunks::<2>().0)
+            .map(|(column, [near, far])| {
+                let behind = (first + f64::from(column) + 1.0) * cell;
+                [behind, 0.5 * (f64::from(*near) + f64::from(*far)) * f64::from(SNOW_DEPTH_M) / height_m]
             })
             .collect();
         let around = profile.first().map_or(0.0, |[_, depth]| *depth);
-        let lee =
-            || profile.iter().filter(|[behind, _]| (0.0..0.6 * f64::from(STRIP_HEIGHTS)).contains(behind));
+        let behind = profile.iter().skip_while(|[behind, _]| *behind < 0.0);
+        let lee: Vec<[f64; 2]> = behind.take_while(|[_, depth]| *depth > LEAST_DEPTH).copied().collect();
         let before = profile.iter().filter(|[behind, _]| (-20.0..0.0).contains(behind));
+        let wide = 2.0 * cell;
         Drift {
             hours,
-            section: lee().map(|[_, depth]| depth * cell).sum(),
-            length: lee()
-                .filter(|[_, depth]| *depth > LEAST_DEPTH)
-                .map(|[behind, _]| *behind)
-                .fold(0.0, f64::max),
-            deepest: lee().map(|[_, depth]| *depth).fold(0.0, f64::max),
-            section_before: before.map(|[_, depth]| (depth - around).max(0.0) * cell).sum(),
+            section: lee.iter().map(|[_, depth]| depth * wide).sum(),
+            length: lee.last().map_or(0.0, |[behind, _]| *behind),
+            deepest: lee.iter().map(|[_, depth]| *depth).fold(0.0, f64::max),
+            section_before: before.map(|[_, depth]| (depth - around).max(0.0) * wide).sum(),
             profile,
         }
     }

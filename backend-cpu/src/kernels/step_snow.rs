@@ -10,11 +10,14 @@ use windfall_core::blocks::NEVER;
 use windfall_core::device::terrain::snow::{SNOW_AGES, snow_drifts, snow_turn};
 use windfall_core::litter::{Bed, SnowMut};
 
+use crate::simd::snow_block::step_snow_lines;
+use crate::simd::{Simd, in_packs};
+
 /// Cells that a thread takes before it takes the next.
 const RUN: usize = 1 << 14;
 
 /// Takes all cells through a step.
-pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed) {
+pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, simd: Simd) {
     let turn = snow_turn(cx.step.index);
     if turn == NEVER {
         return;
@@ -34,24 +37,25 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed) {
     }
     let before = before.min(snow.water.len());
     let (mut front, back) = snow.split_at(before);
-    step_cells(cx, turn, &mut front);
-    step_pairs(cx, turn, 2 * line, back);
+    step_cells(cx, turn, &mut front, simd);
+    step_pairs(cx, turn, 2 * line, back, simd);
 }
 
 /// Takes cells through it, in runs of whole pairs of lines.
-fn step_pairs(cx: &Context<'_>, turn: u32, pair: usize, mut snow: SnowMut<'_>) {
+fn step_pairs(cx: &Context<'_>, turn: u32, pair: usize, mut snow: SnowMut<'_>, simd: Simd) {
     if snow.water.len() <= RUN.max(pair) {
-        step_cells(cx, turn, &mut snow);
+        step_cells(cx, turn, &mut snow, simd);
         return;
     }
     let middle = (snow.water.len() / 2).next_multiple_of(pair).min(snow.water.len() - 1) / pair * pair;
     let (front, back) = snow.split_at(middle.max(pair));
-    join(|| step_pairs(cx, turn, pair, front), || step_pairs(cx, turn, pair, back));
+    join(|| step_pairs(cx, turn, pair, front, simd), || step_pairs(cx, turn, pair, back, simd));
 }
 
-fn step_cells(cx: &Context<'_>, turn: u32, snow: &mut SnowMut<'_>) {
-    match turn {
-        SNOW_AGES => snow.age(cx),
-        turn => snow.exchange(cx, turn),
+fn step_cells(cx: &Context<'_>, turn: u32, snow: &mut SnowMut<'_>, simd: Simd) {
+    match (simd, turn) {
+        (Simd::Lanes(level), turn) => in_packs!(level, step_snow_lines(cx, turn, snow)),
+        (Simd::Scalar, SNOW_AGES) => snow.age(cx),
+        (Simd::Scalar, turn) => snow.exchange(cx, turn),
     }
 }

@@ -11,6 +11,7 @@ pub(crate) mod leaf_block;
 pub(crate) mod lying_block;
 pub(crate) mod particle_block;
 pub(crate) mod prefetch;
+pub(crate) mod snow_block;
 pub(crate) mod struck_block;
 pub(crate) mod sway_scratch;
 

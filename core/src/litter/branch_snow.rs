@@ -20,6 +20,9 @@ use crate::tree::forest::first_three;
 use super::Bed;
 use super::snow::lies_on;
 
+/// Cells over which what hangs at time zero fades out towards squares over which nothing hangs.
+const RIM_CELLS: u32 = 4;
+
 /// Snow on branches, and over the squares of the crowns; empty where no tree stands around the snow.
 #[derive(Debug)]
 pub struct BranchSnowMut<'a> {
@@ -214,6 +217,7 @@ impl Bed {
             let square = crown_square(snow, cell) as usize;
             if sums[square] > 0.0 && covered(cell) > 0.0 {
                 let share = stays * covered(cell) * between_squares(snow, &shares, cell).min(1.0);
+                let share = share * rim_share(snow, &sums, cell);
                 let part = word(units * share).min(ground.water[cell as usize]);
                 ground.take(cell, part, fresh_depth(cx, part));
                 given[square] += part;
@@ -232,6 +236,28 @@ impl Bed {
             held[at] += std::mem::take(&mut left[crown_square(snow, catch.cell) as usize]);
         }
     }
+}
+
+/// Share of what it would give that a cell gives near squares over which nothing hangs, so that no edge of theirs shows.
+fn rim_share(snow: &SnowBlock, sums: &[f64], cell: u32) -> f64 {
+    let (column, line) = (cell % snow.columns, cell / snow.columns);
+    let within = |number: u32| (f64::from(number % CROWN_CELLS) + 0.5) / f64::from(RIM_CELLS);
+    let beyond =
+        |number: u32| (f64::from(CROWN_CELLS - 1 - number % CROWN_CELLS) + 0.5) / f64::from(RIM_CELLS);
+    let mut share = 1.0_f64;
+    for (to_line, near_z) in [(-1_i32, within(line)), (0, 0.0), (1, beyond(line))] {
+        for (to_column, near_x) in [(-1_i32, within(column)), (0, 0.0), (1, beyond(column))] {
+            let next = |number: u32, to: i32| (number / CROWN_CELLS).checked_add_signed(to);
+            let is_bare = next(column, to_column).zip(next(line, to_line)).is_some_and(|(column, line)| {
+                column < crown_columns(snow)
+                    && sums.get((line * crown_columns(snow) + column) as usize).is_some_and(|sum| *sum <= 0.0)
+            });
+            if is_bare {
+                share = share.min(libm::hypot(near_x, near_z));
+            }
+        }
+    }
+    share
 }
 
 /// Number at the middle of a cell, by those of the squares: it changes evenly between their middles.

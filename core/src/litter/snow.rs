@@ -110,6 +110,12 @@ impl SnowMut<'_> {
         (front, SnowMut { first: next, water: waters, depth: depths, melted: melts, landed: lands })
     }
 
+    /// The cells from one on.
+    pub fn rest(&mut self, from: usize) -> SnowMut<'_> {
+        let Self { first, water, depth, melted, landed } = self;
+        SnowMut { first: *first, water, depth, melted, landed }.split_at(from).1
+    }
+
     fn cell(&self, at: usize) -> SnowCell {
         SnowCell { water: self.water[at], depth: self.depth[at] }
     }
@@ -173,8 +179,8 @@ impl SnowMut<'_> {
         }
     }
 
-    /// The same of pairs whose first cells are among some, and both among all.
-    fn exchange_from(&mut self, cx: &Context<'_>, turn: u32, cells: Range<usize>) {
+    /// The same of pairs whose first cells are among some, and both among these.
+    pub fn exchange_from(&mut self, cx: &Context<'_>, turn: u32, cells: Range<usize>) {
         let drifts = snow_drifts(cx);
         for at in cells {
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
@@ -228,9 +234,9 @@ impl SnowMut<'_> {
             }
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
             let cell = self.first + at as u32;
-            let after = snow_age(cx, cell, before, lies_on(cx, cell).open);
-            (self.water[at], self.depth[at]) = (after.water, after.depth);
-            self.melted[at] = self.melted[at].wrapping_add(before.water - after.water);
+            let [water, depth] = snow_age(cx, cell, before.water, before.depth, lies_on(cx, cell).open);
+            (self.water[at], self.depth[at]) = (water, depth);
+            self.melted[at] = self.melted[at].wrapping_add(before.water - water);
         }
     }
 

@@ -136,7 +136,6 @@ functions! {
     wgsl "let after = snow_age(a.x, SnowCell(a.y, a.z), bitcast<f32>(a.w));
         r = vec4<u32>(bitcast<u32>(f32(after.water) * 2.5e-6), bitcast<u32>(f32(after.depth) * 2.5e-6), 0u, 0u);";
     rust |cx, w| {
-        let after = snow_age(cx, w[0], cell(w, 1), float(w[3]));
-        floats([of_most(after.water), of_most(after.depth)])
+        floats(snow_age(cx, w[0], w[1], w[2], float(w[3])).map(of_most))
     };
 }

@@ -23,7 +23,7 @@ fn a_fence_keeps_snow_as_the_storm_blows() {
     );
     assert!(numbers("length")[1] > 8.0, "{:?}", numbers("length"));
     let profile = drifts[1]["profile"].as_array().map(Vec::len);
-    assert_eq!(profile, Some(360), "150 heights in cells of an eighth of a metre");
+    assert_eq!(profile, Some(180), "150 heights in pairs of cells");
     let picture = std::fs::read(there.path().join("drift.png")).expect("a picture");
     let picture = image::load_from_memory(&picture).expect("a PNG").to_rgb8();
     assert_eq!(picture.dimensions(), (1600, 760), "its size");

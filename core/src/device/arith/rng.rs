@@ -79,8 +79,8 @@ pub fn triangular(word: u32) -> i32 {
 
 /// Uniform float in [0, 1) with 24 bits from a random word.
 #[inline(always)]
-pub fn unit_float(word: u32) -> f32 {
-    (word >> 8) as f32 * UNIT_FLOAT
+pub fn unit_float<W: Word>(word: W) -> W::Real {
+    (word >> 8).to_real() * UNIT_FLOAT
 }
 
 #[cfg(test)]

@@ -362,24 +362,24 @@ pub fn drifted_depth(taken: SnowCell) -> u32 {
 
 /// A number rounded at random, so that it is right on average.
 #[inline(always)]
-pub fn round_at_random(number: f32, word: u32) -> u32 {
+pub fn round_at_random<W: Word>(number: W::Real, word: W) -> W {
     (number + unit_float(word)).floor().to_whole()
 }
 
-/// Water of a cell that melts in a round, where so much of the sky is open, and what is left, settled.
+/// Water and depth of a cell that are left after a round in which snow melts and settles, where so much of the sky is open. Only where there is water.
 #[inline(always)]
-pub fn snow_age(cx: &Context<'_>, number: u32, cell: SnowCell, open: f32) -> SnowCell {
+pub fn snow_age<W: Word>(cx: &Context<'_>, number: W, water: W, depth: W, open: W::Real) -> [W; 2] {
     let now = &cx.step.snow;
-    let [melt, settle, shrink, _] = philox(cx.scene.seed, [number, STREAM_SNOW, cx.step.index, 0]);
-    let warmth = now.melt_woods + open * (now.melt_open - now.melt_woods);
-    let left = cell.water - round_at_random(warmth, melt).min(cell.water);
+    let counter = [number, number.all(STREAM_SNOW), number.all(cx.step.index), number.all(0)];
+    let [melt, settle, shrink, _] = philox(cx.scene.seed, counter);
+    let least = |a: W, b: W| a.less_than(b).select(a, b);
+    let warmth = open * (now.melt_open - now.melt_woods) + now.melt_woods;
+    let left = water.minus(least(round_at_random(warmth, melt), water));
     // The depth goes with the water.
-    let mut kept = cell.depth;
-    if left != cell.water {
-        let share = left.to_real() * reciprocal(cell.water.to_real());
-        kept = round_at_random(cell.depth.to_real() * share, shrink).min(cell.depth);
-    }
-    let least = left.to_real() * OLD_DEPTH;
-    let loose = (kept.to_real() - least).max(0.0);
-    SnowCell { water: left, depth: kept - round_at_random(loose * now.settled, settle).min(kept) }
+    let share = left.to_real() * reciprocal(water.to_real());
+    let shrunk = least(round_at_random(depth.to_real() * share, shrink), depth);
+    let kept = left.less_than(water).select(shrunk, depth);
+    let packed = left.to_real() * OLD_DEPTH;
+    let loose = (kept.to_real() - packed).max(open.all(0.0));
+    [left, kept.minus(least(round_at_random(loose * now.settled, settle), kept))]
 }
