@@ -77,7 +77,8 @@ functions! {
     snow_pressed in "terrain/snow_print" (
         Input::Word, Input::Float(-0.4, 0.4), Input::Float(-0.4, 0.4), Input::Float(-0.6, 0.2), WATER, DEPTH, Input::Below(40)
     ) tolerance Some(1e-3);
-    wgsl "let solid = solid_at(a.x % scene.solids.count, 0.0);
+    wgsl "if (scene.solids.count != 0u) {
+        let solid = solid_at(a.x % scene.solids.count, 0.0);
         let x = solid.center.x + bitcast<f32>(a.y);
         let z = solid.center.z + bitcast<f32>(a.z);
         let low = solid.center.y + bitcast<f32>(a.w);
@@ -85,15 +86,18 @@ functions! {
         out_float(0u, f32(after.depth) * 2.5e-6); out_float(1u, f32(after.water) * 2.5e-6);
         out_float(2u, underside(solid, x, z, low, low + 0.5));
         out_float(3u, f32(u32(snow_is_pressed(in_word(6u)))));
-        let mover = a.x % scene.solids.mover_count;
-        out_float(4u, f32(u32(may_press(step_block.movers[mover], x, z))));";
+        let mover = a.x % max(scene.solids.mover_count, 1u);
+        out_float(4u, f32(u32(may_press(step_block.movers[mover], x, z)))); }";
     rust |cx, w| {
+        if !cx.scene.has_solids() {
+            return floats([0.0; 5]);
+        }
         let solid = solid_at(cx, w[0] % cx.scene.solids.count, 0.0);
         let (x, z) = (solid.center.x + float(w[1]), solid.center.z + float(w[2]));
         let low = solid.center.y + float(w[3]);
         let after = snow_pressed(&solid, x, z, low, cell(w, 4));
         let is = |is: bool| if is { 1.0 } else { 0.0 };
-        let mover = &cx.step.movers[(w[0] % cx.scene.solids.mover_count) as usize];
+        let mover = &cx.step.movers[(w[0] % cx.scene.solids.mover_count.max(1)) as usize];
         floats([
             of_most(after.depth), of_most(after.water), underside(&solid, x, z, low, low + 0.5),
             is(snow_is_pressed(w[6])), is(may_press(mover, x, z)),

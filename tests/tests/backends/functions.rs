@@ -8,7 +8,7 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use windfall_core::device::leaf::burn::fire_words;
-use windfall_core::scene::{Burning, Litter, Plume, VortexProfile};
+use windfall_core::scene::{Burning, Litter, Meets, ParticleRelease, Plume, VortexProfile};
 use windfall_core::{Contract, Scene, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
@@ -35,6 +35,9 @@ fn bed() -> Litter {
 fn add_particles(scene: &mut Scene) {
     let with = particle_scene(7, 4.0, 1.0 / 60.0);
     (scene.particles, scene.forces, scene.weather) = (with.particles, with.forces, with.weather);
+    // Of these, none is born of the fifth.
+    let falls = &mut scene.particles[4];
+    (falls.release, falls.meets) = (ParticleRelease::BranchSnow, Meets::Die);
 }
 
 fn world(litter: Option<Litter>) -> World {
@@ -57,6 +60,8 @@ fn world(litter: Option<Litter>) -> World {
     for _ in 0..100 {
         world.compiled.advance(&mut world.clock);
     }
+    let block = *world.compiled.block();
+    world.bed.branch_snow_mut(&block).falls.iter_mut().step_by(3).for_each(|units| *units = 100);
     if litter.is_some() {
         add_ridges(&mut world);
         let fires = world.bed.fires_mut(world.compiled.block());
@@ -183,8 +188,8 @@ fn check_in(
 }
 
 /// Functions that rounding decides about under the looser contract, and those that do so where there is litter.
-const STRIKES: [&str; 5] =
-    ["ground_strike", "bent_share", "wedged_velocity", "particle_contact", "particle_push"];
+const STRIKES: [&str; 6] =
+    ["ground_strike", "bent_share", "wedged_velocity", "particle_contact", "particle_push", "snow_pressed"];
 const TOUCHES: [&str; 8] = [
     "flight_advance",
     "flight_contact",

@@ -296,7 +296,7 @@ fn snow_on_branches_is_equal_to_the_bit() {
         count: 37,
         release: ParticleRelease::BranchSnow,
         life_s: Some(Spread::Constant(3.0)),
-        air: Air::Settling { m_s: Spread::Constant(2.0) },
+        air: Air::Settling { m_s: Spread::Constant(6.0) },
         meets: Meets::Die,
         ..Particles::default()
     });
@@ -312,7 +312,7 @@ fn snow_on_branches_is_equal_to_the_bit() {
     let tree = Tree { kind: "maple".into(), at_m: [1.0, -0.5], age: 0.35, leaves: 300, ..Tree::default() };
     scene.trees = vec![tree];
     let weather = scene.weather.as_mut().expect("it snows");
-    (weather.lying_mm, weather.air_c) = (3.0, vec![(0.0, -1.0)]);
+    (weather.lying_mm, weather.air_c) = (9.0, vec![(0.0, -1.0)]);
     let world = World::build(&scene).expect("valid");
     let held = |world: &World| {
         let held = world.bed.branch_snow(world.compiled.block());

@@ -6,7 +6,7 @@
 
 @group(0) @binding(0) var<uniform> snow: SnowUniform;
 @group(0) @binding(1) var<storage, read> bed: array<u32>;
-// Where the segments above each square metre begin; then of each its row and the area with which it catches snow.
+// Places at which the segments above each square metre begin; then of each its row and the area with which it catches snow.
 @group(0) @binding(2) var<storage, read> segments: array<u32>;
 
 // A triangle over the whole map.
@@ -17,11 +17,11 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
 
 // Snow on the segments above the square of a cell, over what covers their leaves.
 fn on_leaves(cell: vec2<u32>) -> f32 {
-    if snow.squares.x == 0u {
+    if snow.snow_squares.x == 0u {
         return 0.0;
     }
-    let square = (cell.y / snow.square_cells) * snow.squares.x + cell.x / snow.square_cells;
-    let first = snow.squares.x * snow.squares.y + 1u;
+    let square = (cell.y / snow.square_cells) * snow.snow_squares.x + cell.x / snow.square_cells;
+    let first = snow.snow_squares.x * snow.snow_squares.y + 1u;
     var held = 0.0;
     var area = 0.0;
     for (var number = segments[square]; number < segments[square + 1u]; number++) {

@@ -38,7 +38,7 @@ shared_struct! {
         /// Numbers of the first of them.
         litter_first: [i32; 2],
         /// Square metres along x and z; 0 without trees.
-        squares: [u32; 2],
+        snow_squares: [u32; 2],
         /// First word of the bed.
         bed_word: u32,
         /// First word of the snow in it.
@@ -202,7 +202,7 @@ fn uniform_of(block: &SceneBlock, bed_word: u32) -> SnowUniform {
         branch_word: bed_word + branch_word(snow, 0),
         square_cells: CROWN_CELLS,
         covered_per_unit: SNOW_UNIT_KG * CROWN_UNITS_M2 / COVERED_KG_M2,
-        squares: if snow.branches == 0 { [0; 2] } else { [columns, crown_squares(snow) / columns] },
+        snow_squares: if snow.branches == 0 { [0; 2] } else { [columns, crown_squares(snow) / columns] },
         ..bytemuck::Zeroable::zeroed()
     }
 }

@@ -165,7 +165,7 @@ fn another_layout_is_noticed() {
 }
 
 /// Members of structs in buffers that are vectors with axes: colours, planes, directions and sizes.
-const WITH_AXES: [&str; 8] = [
+const WITH_AXES: [&str; 9] = [
     "ambient",
     "palette",
     "sides",
@@ -174,6 +174,7 @@ const WITH_AXES: [&str; 8] = [
     "inv_size_px",
     "inv_viewport_px",
     "snow_cells",
+    "snow_squares",
 ];
 
 /// Members that are lists by number, four to a vector.
