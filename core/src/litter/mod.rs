@@ -8,10 +8,12 @@
 mod branch_snow;
 pub(crate) mod lay;
 pub(crate) mod snow;
+mod snow_stats;
 mod stats;
 mod store;
 
 pub use branch_snow::BranchSnowMut;
-pub use snow::{Snow, SnowMut, SnowStats, fallen_snow, flakes_of, has_landed, lies_on};
+pub use snow::{Snow, SnowMut, fallen_snow, flakes_of, has_landed, lies_on};
+pub use snow_stats::SnowStats;
 pub use stats::LitterStats;
 pub use store::Bed;

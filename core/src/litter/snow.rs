@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Snow of a world: its cells, landings of flakes, exchanges between cells, and sums over all.
+//! Snow of a world: its cells, landings of flakes, exchanges between cells, and prints in it.
 
 use std::ops::Range;
-
-use serde::Serialize;
 
 use crate::arith::lane::Word;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
@@ -13,23 +11,18 @@ use crate::convert::word;
 use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_BRANCH_SNOW, POPULATION_SNOW};
 use crate::device::solid::shape::solid_at;
 use crate::device::terrain::snow::{
-    AROUND_TURN, FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_UNIT_KG,
-    SNOW_WATER_MM, SNOW_WORDS, SnowCell, SnowFloor, drifted_depth, flake_cell, flake_share, fresh_depth,
-    left_over_snow, snow_age, snow_cell, snow_center, snow_drift, snow_drifts, snow_floor, snow_pair,
-    snow_slide, snow_turn,
+    AROUND_TURN, FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS,
+    SnowCell, SnowFloor, drifted_depth, flake_cell, flake_share, fresh_depth, left_over_snow, snow_age,
+    snow_cell, snow_center, snow_drift, snow_drifts, snow_floor, snow_pair, snow_slide, snow_turn,
 };
 use crate::device::terrain::snow_print::{may_press, snow_is_pressed, snow_pressed};
 use crate::device::tree::branch_snow::CROWN_TURN;
 use crate::device::wind::shelter::wind_shelter;
 use crate::layout::Uint4;
 use crate::particle::{ParticlePlace, ParticleStore};
-use crate::scene::Scene;
 use crate::tree::Branches;
 
 use super::Bed;
-
-/// Kilograms of a unit of water.
-const UNIT_KG: f64 = SNOW_UNIT_KG as f64;
 
 /// The four planes of the snow of a world, each cell's word in the place of its number; empty without snow.
 #[derive(Clone, Copy, Debug)]
@@ -354,60 +347,5 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, branches: &Branches, pa
     }
     if cx.scene.has_movers() && snow_is_pressed(cx.step.index) {
         snow.press(cx);
-    }
-}
-
-/// Sums over the snow of a world at one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct SnowStats {
-    /// Flakes in the air.
-    pub flakes: u32,
-    /// Water in the air in kg, with what crowns have just caught and what falls from them.
-    pub falling_kg: f64,
-    /// Water of the snow on the branches of trees in kg.
-    pub on_branches_kg: f64,
-    /// Water that has landed on the ground of the rectangle since time zero, and that lay there then, in kg.
-    pub landed_kg: f64,
-    /// Water of the snow that lies in kg.
-    pub lying_kg: f64,
-    /// The same over the rectangle in mm.
-    pub lying_mm: f64,
-    /// Water that has melted in kg.
-    pub melted_kg: f64,
-    /// The same over the rectangle in mm.
-    pub melted_mm: f64,
-    /// Greatest depth in m.
-    pub deepest_m: f64,
-    /// Depth on average over the rectangle in m.
-    pub mean_depth_m: f64,
-    /// Share of the rectangle under at least a tenth of a millimetre of water.
-    pub covered: f64,
-}
-
-impl SnowStats {
-    /// Sums over a bed under flakes of which so many are in the air; `None` without snow.
-    pub(crate) fn of(scene: &Scene, block: &SceneBlock, bed: &Bed, flakes: u32, step: u32) -> Option<Self> {
-        scene.weather.as_ref()?;
-        let snow = bed.snow(block);
-        let sum = |words: &[u32]| words.iter().copied().map(u64::from).sum::<u64>() as f64;
-        let count = snow.water.len() as f64;
-        let water = sum(snow.water);
-        let covered = snow.water.iter().filter(|water| f64::from(**water) * f64::from(SNOW_WATER_MM) >= 0.1);
-        Some(Self {
-            flakes,
-            falling_kg: (f64::from(flakes) * f64::from(block.snow.flake_water)
-                + sum(bed.in_crowns(block, step))
-                + sum(bed.branch_falls(block)))
-                * UNIT_KG,
-            on_branches_kg: sum(bed.branch_snow(block)) * UNIT_KG,
-            landed_kg: sum(snow.landed) * UNIT_KG,
-            lying_kg: water * UNIT_KG,
-            lying_mm: water * f64::from(SNOW_WATER_MM) / count,
-            melted_kg: sum(snow.melted) * UNIT_KG,
-            melted_mm: sum(snow.melted) * f64::from(SNOW_WATER_MM) / count,
-            deepest_m: f64::from(snow.depth.iter().copied().max().unwrap_or(0)) * f64::from(SNOW_DEPTH_M),
-            mean_depth_m: sum(snow.depth) * f64::from(SNOW_DEPTH_M) / count,
-            covered: covered.count() as f64 / count,
-        })
     }
 }

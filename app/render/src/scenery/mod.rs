@@ -10,9 +10,8 @@ pub(crate) mod snow_pass;
 mod terrain_mesh;
 pub(crate) mod water_pass;
 
-use windfall_core::layout::WgslStruct;
-
 use windfall_core::device::terrain::snow;
+use windfall_core::layout::WgslStruct;
 
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 

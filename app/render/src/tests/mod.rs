@@ -172,22 +172,20 @@ impl Bench {
 
     /// Draws the snow that these words of a bed hold.
     pub(crate) fn draw_snow(&mut self, words: &[u32]) -> RgbaImage {
-        let (device, queue) = (self.gpu.device(), self.gpu.queue());
-        let usage = wgpu::BufferUsages::STORAGE;
-        let buffer = upload::buffer(device, queue, "bed", usage, bytemuck::cast_slice(words));
-        let bed = BedColumn { buffer: &buffer, first_word: 0 };
-        let drawn = Drawn { bed: Some(bed), ..Drawn::default() };
-        self.draw_world(drawn, 0, 60_000, 0.0, 0.0)
+        self.draw_bed(words, 0, Drawn::default())
     }
 
     /// The same over a level leaf in a state, the first of the scene's.
     pub(crate) fn draw_snowy_leaf(&mut self, words: &[u32], state: u32) -> RgbaImage {
+        self.draw_bed(words, state, Drawn { is_level: true, ..Drawn::default() })
+    }
+
+    fn draw_bed(&mut self, words: &[u32], state: u32, drawn: Drawn<'_>) -> RgbaImage {
         let (device, queue) = (self.gpu.device(), self.gpu.queue());
         let usage = wgpu::BufferUsages::STORAGE;
         let buffer = upload::buffer(device, queue, "bed", usage, bytemuck::cast_slice(words));
         let bed = BedColumn { buffer: &buffer, first_word: 0 };
-        let drawn = Drawn { bed: Some(bed), is_level: true, ..Drawn::default() };
-        self.draw_world(drawn, state, 60_000, 0.0, 0.0)
+        self.draw_world(Drawn { bed: Some(bed), ..drawn }, state, 60_000, 0.0, 0.0)
     }
 
     /// Draws one big falling leaf that burns as `burn` says.
