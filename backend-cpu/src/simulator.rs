@@ -23,7 +23,7 @@ use crate::kernels::carry_forces::carry_forces;
 use crate::kernels::follow_leaves::follow_leaves;
 use crate::kernels::gather_heat::gather_heat;
 use crate::kernels::keep_history::keep_history;
-use crate::kernels::land_flakes::land_flakes;
+use crate::kernels::land_flakes::{Landings, land_flakes};
 use crate::kernels::measure::measure;
 use crate::kernels::press_snow::press_snow;
 use crate::kernels::pull_particles::pull_particles;
@@ -40,7 +40,7 @@ use crate::simd::Simd;
 use crate::simd::batch_blocks::BatchBlocks;
 use crate::simd::sway_scratch::Scratch;
 
-/// Most steps that a chunk of leaves goes through before the next chunk.
+/// Most steps that a chunk of leaves or particles goes through before the next chunk.
 const MOST_FUSED: usize = 8;
 
 /// Particles that are stepped before another thread would have woken up.
@@ -188,6 +188,7 @@ impl Simulator for CpuSimulator {
             self.heat.cells.make(1 << BURN_CELL_BITS);
         }
         let heat = &self.heat;
+        let landings: [Landings; MOST_FUSED] = Default::default();
         let (cells, pulls, carriers) = (&self.cells, &mut self.pulls, &mut self.carriers);
         let starts = &mut self.starts;
         starts.resize(compiled.start_count(), bytemuck::Zeroable::zeroed());
@@ -229,7 +230,7 @@ impl Simulator for CpuSimulator {
                 pull_particles(cx, particles, pulls, simd);
             }
             each_generation(&compiled.block().populations, particles, starts, |generation| {
-                step_particles(steps, generation, pulls, &sums, simd);
+                step_particles(steps, generation, pulls, &sums, &landings, simd);
             });
             if let Some(cx) = steps.last() {
                 keep_history(cx, compiled.histories(), particles, history);
@@ -277,19 +278,22 @@ impl Simulator for CpuSimulator {
                 follow_leaves(&bare, leaves, burns, particles);
             }
             if has_snow {
-                let cx = compiled.context(&step_blocks[0]);
-                land_flakes(&cx, particles, bed);
-                step_branch_snow(&cx, branches, bed);
-                step_snow(&cx, bed, simd);
-                press_snow(&cx, bed);
+                for (block, landings) in step_blocks[..count].iter().zip(&landings) {
+                    let cx = compiled.context(block);
+                    land_flakes(&cx, landings, particles, bed);
+                    step_branch_snow(&cx, branches, bed);
+                    step_snow(&cx, bed, simd);
+                    press_snow(&cx, bed);
+                }
             }
             count
         };
         let mut steps = || {
             let mut left = count as usize;
             while left > 0 {
-                // Snow takes what lands in a step, leaves see what others have left in the litter a step before, and particles where others are, or what befell them.
-                let sees_others = has_litter || has_snow || is_mutual || has_nests || has_carriers;
+                // Leaves see what others have left in the litter a step before, branches what snow they bear, and particles where others are, or what befell them.
+                let is_borne = has_snow && !forest.is_empty();
+                let sees_others = has_litter || is_borne || is_mutual || has_nests || has_carriers;
                 let portion = left.min(if sees_others { 1 } else { MOST_FUSED });
                 left -= run(portion);
             }

@@ -5,10 +5,13 @@
 mod common;
 
 use common::{build, many_species, step};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use windfall_core::leaf::LeafState;
 use windfall_core::motion::JOINED_COUNT;
-use windfall_core::scene::{MeanSpeed, Profile, Release, Scene, Source, SourceShape, Vortex, VortexProfile};
+use windfall_core::scene::{
+    Air, Bounds, MeanSpeed, Meets, ParticleRelease, ParticleShape, Particles, Profile, Release, Scene,
+    Source, SourceShape, Spread, Vortex, VortexProfile, Weather,
+};
 use windfall_core::store::Store;
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
@@ -141,6 +144,48 @@ fn steps_may_be_asked_for_in_any_portions() {
     let mut world = start.clone();
     simulator.read_state(&mut world).expect("worlds of one size");
     assert_eq!(world.state_hash(), run(&start, 3, 40).state_hash(), "40 steps in portions and at once");
+}
+
+/// Flakes go through several steps before others do; what lands in each becomes snow in that one, which slides and drifts between them.
+#[test]
+fn snow_takes_what_lands_step_by_step() {
+    let mut scene = small_scene();
+    let (center_m, half_m) = (Vec3::Y * 2.0, 6.0);
+    let flakes = Particles {
+        count: 4000,
+        release: ParticleRelease::Snowfall,
+        from: ParticleShape::Box { center_m: Vec3::Y * 4.0, half_extent_m: Vec3::new(half_m, 0.5, half_m) },
+        life_s: Some(Spread::Constant(5.0)),
+        air: Air::Settling { m_s: Spread::Normal(1.5, 0.2) },
+        meets: Meets::Die,
+        dies: Some(Bounds::Through { center_m, half_extent_m: Vec3::new(half_m, 5.0, half_m) }),
+        ..Particles::default()
+    };
+    scene.particles = vec![flakes];
+    scene.weather = Some(Weather {
+        size_m: Vec2::splat(10.0),
+        snow_mm_h: vec![(0.0, 200.0)],
+        air_c: vec![(0.0, -8.0), (2.0, 6.0)],
+        ..Weather::default()
+    });
+    let start = build(&scene);
+    let mut plain = start.clone();
+    step(&mut plain, 300);
+    let units = |world: &World| {
+        world.bed.snow(world.compiled.block()).water.iter().map(|&cell| u64::from(cell)).sum::<u64>()
+    };
+    let [before, after] = [&start, &plain].map(units);
+    assert!(before + 1000 < after, "flakes land: {before} units of water, then {after}");
+    for simd in Simd::available() {
+        let options = CpuOptions { threads: Some(3), simd: Some(simd) };
+        let mut simulator = CpuSimulator::new(&start, options).expect("threads can be started");
+        for portion in [5, 1, 200, 94] {
+            simulator.step(portion).expect("the CPU can step");
+        }
+        let mut world = start.clone();
+        simulator.read_state(&mut world).expect("worlds of one size");
+        assert_eq!(world.state_hash(), plain.state_hash(), "{simd:?} against a plain loop");
+    }
 }
 
 /// Units of slots to which nothing happens are passed by; a plain loop steps every leaf.

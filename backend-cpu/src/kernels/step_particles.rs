@@ -17,14 +17,16 @@ use windfall_core::blocks::{BirthBlock, NEVER, NestBlock};
 use windfall_core::device::particle::nest::{nest_events, nest_place};
 use windfall_core::device::particle::record::{
     PARTICLE_DEAD, PARTICLE_DORMANT, PARTICLE_MARKS, PARTICLE_STATE_MASK, POPULATION_BRANCH_SNOW,
-    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_ON_LEAVES, particle_population,
+    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_ON_LEAVES, POPULATION_SNOW, particle_population,
 };
 use windfall_core::device::particle::step::{ParticleChange, particle_step};
 use windfall_core::device::tree::branch_fall::fall_row;
-use windfall_core::particle::{Generation, ParticleRows, add_to_tally};
+use windfall_core::litter::has_landed;
+use windfall_core::particle::{Generation, ParticlePlace, ParticleRows, add_to_tally};
 
 use super::CHUNK;
 use super::fly::{FewOfBlocks, slots_of};
+use super::land_flakes::Landings;
 use crate::quiet::places_of;
 use crate::simd::particle_block::{ParentFrames, ParticleBlock};
 use crate::simd::struck_block::StruckBlock;
@@ -34,39 +36,59 @@ use crate::simd::{Simd, in_packs};
 const FEW: usize = 2;
 
 /// Steps a generation of particles, halving the columns until a piece is one chunk, and adds to the counts of populations. `pulls` are
-/// accelerations by others, slot by slot, or none.
+/// accelerations by others, slot by slot, or none. Flakes that land are noted, step by step.
 pub(crate) fn step_particles(
     steps: &[Context<'_>],
     mut run: Generation<'_>,
     pulls: &[[f32; 4]],
     tallies: &[AtomicU32],
+    landings: &[Landings],
     simd: Simd,
 ) {
     if run.particles.len() > CHUNK {
         let middle = (run.particles.len() / 2).next_multiple_of(CHUNK);
         let (front, back) = run.split_at(middle);
         join(
-            || step_particles(steps, front, pulls, tallies, simd),
-            || step_particles(steps, back, pulls, tallies, simd),
+            || step_particles(steps, front, pulls, tallies, landings, simd),
+            || step_particles(steps, back, pulls, tallies, landings, simd),
         );
         return;
     }
-    let mut counts = vec![0; tallies.len()];
-    for cx in steps {
+    let mut events = ChunkEvents { counts: vec![0; tallies.len()], landed: Vec::new() };
+    for (cx, landings) in steps.iter().zip(landings) {
         match simd {
             Simd::Scalar => {
                 for number in 0..run.particles.len() {
-                    step_one(cx, &mut run, number, pulls, &mut counts);
+                    step_one(cx, &mut run, number, pulls, &mut events);
                 }
             }
             Simd::Lanes(level) => {
-                in_packs!(level, step_lanes(cx, &mut run, pulls, &mut counts));
+                in_packs!(level, step_lanes(cx, &mut run, pulls, &mut events));
             }
         }
+        landings.append(&mut events.landed);
     }
-    for (sum, count) in tallies.iter().zip(counts) {
+    for (sum, count) in tallies.iter().zip(events.counts) {
         if count != 0 {
             sum.fetch_add(count, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Events of a chunk.
+struct ChunkEvents {
+    /// Counts of populations in the steps so far.
+    counts: Vec<u32>,
+    /// Places of flakes that landed in a step.
+    landed: Vec<[f32; 3]>,
+}
+
+impl ChunkEvents {
+    /// Adds what has happened to particles of a population, the last of them here.
+    fn add(&mut self, cx: &Context<'_>, population: u32, change: &ParticleChange, places: &[ParticlePlace]) {
+        add_to_tally(&mut self.counts, population, change);
+        if change.died != 0 && (cx.scene.populations[population as usize].flags & POPULATION_SNOW) != 0 {
+            self.landed.extend(places.iter().filter(|place| has_landed(place)).map(|place| place.position));
         }
     }
 }
@@ -78,7 +100,7 @@ fn step_one(
     run: &mut Generation<'_>,
     number: usize,
     pulls: &[[f32; 4]],
-    counts: &mut [u32],
+    events: &mut ChunkEvents,
 ) {
     let population = particle_population(run.particles.place[number].bits);
     let slot = run.first + slot_word(number);
@@ -86,7 +108,7 @@ fn step_one(
     let mut spare = bytemuck::Zeroable::zeroed();
     let begin = run.starts.get_mut(number).unwrap_or(&mut spare);
     let change = particle_step(cx, &mut run.particles.row_mut(number), &run.parents, slot, mutual, begin);
-    add_to_tally(counts, population, &change);
+    events.add(cx, population, &change, &run.particles.place[number..=number]);
 }
 
 /// Steps a chunk block by block; blocks with births, and those of several populations, one particle after another. What something is in
@@ -97,7 +119,7 @@ fn step_lanes<P: Pack>(
     cx: &Context<'_>,
     run: &mut Generation<'_>,
     pulls: &[[f32; 4]],
-    counts: &mut [u32],
+    events: &mut ChunkEvents,
 ) {
     let (count, first) = (run.particles.len(), run.first as usize);
     let mut struck: FewOfBlocks = [0; CHUNK / BLOCK];
@@ -118,7 +140,7 @@ fn step_lanes<P: Pack>(
                 if (run.particles.place[row].bits & (PARTICLE_STATE_MASK | PARTICLE_MARKS))
                     != PARTICLE_DORMANT
                 {
-                    step_one(cx, run, row, pulls, counts);
+                    step_one(cx, run, row, pulls, events);
                 }
             }
             continue;
@@ -129,13 +151,13 @@ fn step_lanes<P: Pack>(
                 // Most of them wait for snow to fall.
                 let idles = state == PARTICLE_DORMANT || state == PARTICLE_DEAD;
                 if !idles || fall_row(cx, slot_word(place + number)) != NEVER {
-                    step_one(cx, run, row, pulls, counts);
+                    step_one(cx, run, row, pulls, events);
                 }
             }
             continue;
         }
         if here != last || rows.len() != BLOCK || is_born_into() {
-            rows.for_each(|row| step_one(cx, run, row, pulls, counts));
+            rows.for_each(|row| step_one(cx, run, row, pulls, events));
             continue;
         }
         let whole = "a whole block";
@@ -173,9 +195,9 @@ fn step_lanes<P: Pack>(
         let flags = cx.scene.populations[population as usize].flags;
         // What goes along with a parent meets the ground on its parent's way.
         if count > FEW && (flags & POPULATION_LOCAL) == 0 {
-            left = step_struck::<P>(simd, cx, run, together, pulls, &mut block, counts);
+            left = step_struck::<P>(simd, cx, run, together, pulls, &mut block, events);
         }
-        places_of(left).for_each(|at| step_one(cx, run, together[at], pulls, counts));
+        places_of(left).for_each(|at| step_one(cx, run, together[at], pulls, events));
     }
 }
 
@@ -189,10 +211,11 @@ fn step_struck<P: Pack>(
     rows: &[usize],
     pulls: &[[f32; 4]],
     block: &mut StruckBlock,
-    counts: &mut [u32],
+    events: &mut ChunkEvents,
 ) -> u64 {
     let (first, particles) = (run.first as usize, &mut run.particles);
     for (at, &row) in rows.iter().enumerate() {
+        block.slot[at] = slot_word(first + row);
         block.place[at] = particles.place[row];
         block.motion[at] = particles.motion[row];
         block.traits[at] = particles.traits[row];
@@ -202,7 +225,7 @@ fn step_struck<P: Pack>(
     let mut change = ParticleChange::default();
     let left =
         block.advance::<P>(simd, cx, &cx.scene.populations[population as usize], rows.len(), &mut change);
-    add_to_tally(counts, population, &change);
+    events.add(cx, population, &change, &block.place[..rows.len()]);
     for (at, &row) in rows.iter().enumerate() {
         particles.place[row] = block.place[at];
         particles.motion[row] = block.motion[at];

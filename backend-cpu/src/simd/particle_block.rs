@@ -6,9 +6,9 @@ use bytemuck::{must_cast_mut, must_cast_ref};
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::lane::{Mask, Word};
-use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
+use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, rows_of_bits, store_block};
 use windfall_core::blocks::PopulationBlock;
-use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_free_step};
 use windfall_core::device::particle::local_space::{ParticleFrame, carried_flight, in_frame};
 use windfall_core::device::particle::record::{
     PARTICLE_ALIVE, PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, particle_state,
@@ -148,12 +148,17 @@ impl ParticleBlock<'_> {
             Some(pulls) => vector_and_fourth(load_block::<P>(simd, pulls, part)).0,
             None => Vec3::<f32>::ZERO.spread(air_a),
         };
+        let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
+        let slots = rows.plus(rows.all(self.slot));
         let start = ParticleFlight { position, velocity };
         let end = match frames.map(|frames| frames.part::<P>(simd, part)) {
-            None => particle_fly(cx, population, start, [air_a, air_b], mutual),
+            None => particle_free_step(cx, population, slots, start, [air_a, air_b], mutual),
             Some(frame) => {
                 let inside = in_frame(frame, start);
-                carried_flight(frame, particle_fly(cx, population, inside, [air_a, air_b], mutual))
+                carried_flight(
+                    frame,
+                    particle_free_step(cx, population, slots, inside, [air_a, air_b], mutual),
+                )
             }
         };
         let ends =

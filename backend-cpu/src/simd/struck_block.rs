@@ -8,11 +8,11 @@ use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::lane::{Mask, Real, Word};
 use windfall_core::arith::math::reciprocal;
-use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
+use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, rows_of_bits, store_block};
 use windfall_core::arith::vector::{vec3_dot, vec3_select};
 use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::flight::strike::{MOST_STRIKES, STRIKE_GAP_M};
-use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_free_step};
 use windfall_core::device::particle::record::{
     MEETS_DIE, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_MARKS,
     PARTICLE_RESTING, particle_state, with_more_hits, with_particle_state,
@@ -32,6 +32,7 @@ use super::leaf_block::select_four;
 /// Copies of particles of one population.
 #[derive(Default)]
 pub(crate) struct StruckBlock {
+    pub(crate) slot: [u32; BLOCK],
     pub(crate) place: [ParticlePlace; BLOCK],
     pub(crate) motion: [ParticleMotion; BLOCK],
     pub(crate) traits: [ParticleTraits; BLOCK],
@@ -102,7 +103,9 @@ impl StruckBlock {
         let is_over = lives & life_is_over(cx, birth.to_bits(), life_size.to_bits());
         let moves = lives & !is_over;
         let start = ParticleFlight { position, velocity };
-        let end = particle_fly(cx, population, start, [air_a, air_b], mutual);
+        let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
+        let slots = rows.look_up_word(&self.slot);
+        let end = particle_free_step(cx, population, slots, start, [air_a, air_b], mutual);
         let is_struck = moves & may_be_struck(cx, population, position, end.position);
         let contact = ground_contact(cx, population, start, end, is_struck);
         let GroundContact { flight, hits, is_held, dies, is_left } = contact;

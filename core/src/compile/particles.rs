@@ -16,8 +16,8 @@ use crate::device::particle::birth::{
 use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
     DIRECTION_AROUND, DIRECTION_CAP, DIRECTION_OUTWARD, MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK,
-    POPULATION_BRANCH_SNOW, POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS, POPULATION_ON_LEAVES,
-    POPULATION_SNOW, POPULATION_THROUGH,
+    POPULATION_BRANCH_SNOW, POPULATION_COASTS, POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS,
+    POPULATION_ON_LEAVES, POPULATION_SNOW, POPULATION_SWIRLED, POPULATION_THROUGH, POPULATION_TURNED,
 };
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
@@ -68,6 +68,10 @@ pub(super) fn populations_of(
             }
             block.force_count += 1;
             rows.extend(force_rows(scene, particles, force, run));
+        }
+        let is_moved = (block.flags & (POPULATION_TURNED | POPULATION_SWIRLED | POPULATION_LOCAL)) != 0;
+        if particles.is_snow() && block.air == AIR_LINEAR && !is_moved {
+            block.flags |= POPULATION_COASTS;
         }
     }
     (blocks, rows)

@@ -10,7 +10,7 @@ use windfall_core::device::particle::birth::{
     birth_number, cap_direction, foot_point, shape_point, trait_word,
 };
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
-use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_fly, particle_free_step};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
 use windfall_core::device::particle::history::{history_counts, history_is_due, history_row, history_sample};
 use windfall_core::device::particle::local_space::{
@@ -261,6 +261,15 @@ functions! {
         let start = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
         let end = particle_fly(cx, population(cx, w), start, [float(w[7]), float(w[8])], vector(w, 9));
         flight(end)
+    };
+
+    particle_free_step in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW, ANY) tolerance Some(1e-4);
+    wgsl "let end = particle_free_step(a.x, in_word(12u), ParticleFlight(in_vec3(1u), in_vec3(4u)), vec2<f32>(in_float(7u), in_float(8u)), in_vec3(9u));
+        out_vec3(0u, end.position); out_vec3(3u, end.velocity);";
+    rust |cx, w| {
+        let start = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
+        let (air, mutual) = ([float(w[7]), float(w[8])], vector(w, 9));
+        flight(particle_free_step(cx, population(cx, w), w[12], start, air, mutual))
     };
 
     ground_strike in "particle/strike" (PLACE, FLOW) tolerance Some(1e-2);

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Snow against measured depths, slopes and melt, and books of its water to the unit.
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
+use windfall_core::device::particle::record::{PARTICLE_ALIVE, particle_state};
 use windfall_core::device::terrain::snow::{
     SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM, snow_turn,
 };
 use windfall_core::litter::{flakes_of, has_landed, lies_on};
+use windfall_core::particle::ParticlePlace;
 use windfall_core::scene::{
     Air, Bounds, Litter, MeanSpeed, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles,
-    Scene, Spread, Terrain, Tree, Water, Weather,
+    Scene, Spread, Terrain, Tree, Turbulence, Water, Weather,
 };
 use windfall_core::{World, oracle};
 
@@ -96,6 +98,41 @@ fn no_water_is_lost_in_a_storm() {
     assert!(sum(snow.melted) > 100 && sum(snow.water) > sum(snow.melted), "some of it melts");
     let stats = world.snow_stats().expect("there is snow");
     assert!((stats.landed_kg - stats.lying_kg - stats.melted_kg).abs() < 1e-9, "{stats:?}");
+}
+
+/// Flakes sample the air in every other step. In turbulence they fall, drift and shake as particles do that sample it in every step.
+#[test]
+fn flakes_fly_as_other_particles_do() {
+    let mut scene = snowy(10.0, -2.0, 12.0, 6000);
+    scene.wind.speed = MeanSpeed::MetresPerSecond(4.0);
+    scene.wind.turbulence = Turbulence { intensity: 0.3, cell_m: 1.0, ..Turbulence::default() };
+    let others =
+        Particles { release: ParticleRelease::Rate { per_s: 600.0, from_s: -8.0 }, ..flakes(6000, 6.0) };
+    scene.particles.push(Particles { name: "others".into(), ..others });
+    let mut world = World::build(&scene).expect("valid");
+    oracle::step(&mut world, 20);
+    let motions = |world: &World, population: usize| {
+        let block = &world.compiled.block().populations[population];
+        let slots = block.first_slot as usize..(block.first_slot + block.count) as usize;
+        let rows = world.particles.place[slots.clone()].iter().zip(&world.particles.motion[slots]);
+        let flies = |place: &ParticlePlace| particle_state(place.bits) == PARTICLE_ALIVE;
+        let band = |place: &ParticlePlace| (2.0..4.0).contains(&place.position[1]);
+        let velocities: Vec<DVec3> = rows
+            .filter(|(place, _)| flies(place) && band(place))
+            .map(|(_, motion)| Vec3::from(motion.velocity).as_dvec3())
+            .collect();
+        let count = velocities.len() as f64;
+        let mean = velocities.iter().sum::<DVec3>() / count;
+        let spread = velocities.iter().map(|velocity| (velocity - mean).powf(2.0)).sum::<DVec3>() / count;
+        (count, mean, spread.map(f64::sqrt))
+    };
+    let [(count, mean, spread), (_, other_mean, other_spread)] = [0, 1].map(|number| motions(&world, number));
+    assert!(count > 1000.0, "{count} flakes");
+    assert!((-1.1..-0.9).contains(&mean.y) && mean.x > 2.0, "they fall and drift: {mean}");
+    assert!((mean - other_mean).length() < 0.1, "{mean} m/s, others {other_mean}");
+    for (one, other) in spread.to_array().into_iter().zip(other_spread.to_array()) {
+        assert!(other > 0.1 && (0.9..1.1).contains(&(one / other)), "{spread} m/s, others {other_spread}");
+    }
 }
 
 /// As much falls as the weather says, evenly over the rectangle, from the first second on.

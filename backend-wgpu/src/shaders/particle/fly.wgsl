@@ -48,7 +48,11 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
             let way = air.x * air.y;
             let lag = dt - way;
             end.position = position + (velocity * dt + (slip * lag + pull * (air.y * lag)));
-            end.velocity = velocity + (slip * air.x + pull * way);
+            var change = slip * air.x + pull * way;
+            if ((flags & POPULATION_COASTS) != 0u) {
+                change = change * (2.0 - air.x);
+            }
+            end.velocity = velocity + change;
         } else {
             let kick = pull * half;
             var turned = air_drag(number, wind, velocity + kick, air);
@@ -64,4 +68,12 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
         end.position = force_swirl(number, end.position);
     }
     return end;
+}
+
+fn particle_free_step(number: u32, slot: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
+    let may_coast = (scene.populations[number].flags & POPULATION_COASTS) != 0u;
+    if (may_coast && (((slot >> AIR_UNIT_SHIFT) + step_block.index) & 1u) == 1u) {
+        return ParticleFlight(start.position + start.velocity * scene.dt_s, start.velocity);
+    }
+    return particle_fly(number, start, air, mutual);
 }

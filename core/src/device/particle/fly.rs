@@ -6,11 +6,14 @@
 
 use super::air::{AIR_LINEAR, AIR_MASSLESS, AIR_STOKES, AIR_VACUUM, air_drag};
 use super::force::{force_pull, force_swirl, force_turn};
-use super::record::{POPULATION_MUTUAL, POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED};
-use crate::arith::lane::{Mask, Real};
-use crate::arith::vector::Vec3;
-use crate::blocks::PopulationBlock;
+use super::record::{
+    POPULATION_COASTS, POPULATION_MUTUAL, POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED,
+};
+use crate::arith::lane::{Mask, Real, Word};
+use crate::arith::vector::{Vec3, vec3_select};
+use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
+use crate::device::leaf::air::AIR_UNIT_SHIFT;
 use crate::device::wind::sample::wind_at;
 
 /// Speed along an axis in m/s below which there is none: decaying ones would become subnormal, on which processors are slow.
@@ -33,6 +36,7 @@ fn whole_speed<R: Real>(speed: R) -> R {
 
 /// A particle after a free step. Linear drag is exact; other places follow from the mean of both velocities. Forces act where half a
 /// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits. `mutual` is the acceleration by others of the population.
+/// The velocity of what coasts next is that after two steps.
 #[inline(always)]
 pub fn particle_fly<R: Real>(
     cx: &Context<'_>,
@@ -67,7 +71,11 @@ pub fn particle_fly<R: Real>(
             let way = air[0] * air[1];
             let lag = dt - way;
             end.position = position + (velocity * dt + (slip * lag + pull * (air[1] * lag)));
-            end.velocity = velocity + (slip * air[0] + pull * way);
+            let mut change = slip * air[0] + pull * way;
+            if (population.flags & POPULATION_COASTS) != 0 {
+                change = change * (air[0].all(2.0) - air[0]);
+            }
+            end.velocity = velocity + change;
         } else {
             let kick = pull * half;
             let mut turned = air_drag(population, wind, velocity + kick, air);
@@ -84,4 +92,33 @@ pub fn particle_fly<R: Real>(
         end.position = force_swirl(cx, population, end.position);
     }
     end
+}
+
+/// The particle in a slot after a free step, straight on where it coasts: those of some populations sample the air in every other step,
+/// units of slots in turns.
+#[inline(always)]
+pub fn particle_free_step<R: Real>(
+    cx: &Context<'_>,
+    population: &PopulationBlock,
+    slot: R::Word,
+    start: ParticleFlight<R>,
+    air: [R; 2],
+    mutual: Vec3<R>,
+) -> ParticleFlight<R> {
+    let mut coasts = slot.equals(NEVER);
+    if (population.flags & POPULATION_COASTS) != 0 {
+        coasts = ((slot >> AIR_UNIT_SHIFT).plus(slot.all(cx.step.index)) & 1).equals(1);
+    }
+    if !coasts.any() {
+        return particle_fly(cx, population, start, air, mutual);
+    }
+    let ahead = start.position + start.velocity * start.position.x.all(cx.scene.dt_s);
+    if !(!coasts).any() {
+        return ParticleFlight { position: ahead, velocity: start.velocity };
+    }
+    let end = particle_fly(cx, population, start, air, mutual);
+    ParticleFlight {
+        position: vec3_select(coasts, ahead, end.position),
+        velocity: vec3_select(coasts, start.velocity, end.velocity),
+    }
 }
