@@ -164,7 +164,7 @@ fn snow_takes_what_lands_step_by_step() {
     scene.particles = vec![flakes];
     scene.weather = Some(Weather {
         size_m: Vec2::splat(10.0),
-        snow_mm_h: vec![(0.0, 200.0)],
+        snow_mm_h: vec![(0.0, 50.0)],
         air_c: vec![(0.0, -8.0), (2.0, 6.0)],
         ..Weather::default()
     });
