@@ -46,6 +46,7 @@ mod snow;
 mod snow_drift;
 mod snow_leaves;
 mod snow_print;
+mod snowfall;
 mod solids;
 mod sway;
 mod table_file;

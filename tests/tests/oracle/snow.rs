@@ -2,23 +2,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Snow against measured depths, slopes and melt, and books of its water to the unit.
 
-use glam::{DVec3, Vec2, Vec3};
-use windfall_core::device::particle::record::{PARTICLE_ALIVE, particle_state};
+use glam::{Vec2, Vec3};
 use windfall_core::device::terrain::snow::{
     SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM, snow_turn,
 };
 use windfall_core::litter::{flakes_of, has_landed, lies_on};
-use windfall_core::particle::{ParticleMotion, ParticlePlace};
 use windfall_core::scene::{
-    Air, Bounds, Litter, MeanSpeed, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles,
-    Scene, Spread, Terrain, Tree, Turbulence, Water, Weather,
+    Air, Bounds, Litter, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles, Scene,
+    Spread, Terrain, Tree, Water, Weather,
 };
 use windfall_core::{World, oracle};
 
 use crate::common::{steady_wind, still_scene, uniform_species};
 
 /// Flakes that come down over a square at a metre a second, and come in again through the side opposite to that which they leave.
-fn flakes(count: u32, half_m: f32) -> Particles {
+pub(super) fn flakes(count: u32, half_m: f32) -> Particles {
     let (center_m, half_extent_m) = (Vec3::Y * 4.0, Vec3::new(half_m, 5.0, half_m));
     Particles {
         name: "flakes".into(),
@@ -47,11 +45,11 @@ pub(super) fn snowy(mm_h: f32, air_c: f32, size_m: f32, count: u32) -> Scene {
     Scene { weather: Some(weather), particles, dt_s: 0.05, ..still_scene(uniform_species(), 1, 2.0) }
 }
 
-fn sum(words: &[u32]) -> u64 {
+pub(super) fn sum(words: &[u32]) -> u64 {
     words.iter().copied().map(u64::from).sum()
 }
 
-fn mm(units: u64, world: &World) -> f64 {
+pub(super) fn mm(units: u64, world: &World) -> f64 {
     let cells = world.bed.snow(world.compiled.block()).water.len();
     units as f64 * f64::from(SNOW_WATER_MM) / cells as f64
 }
@@ -98,85 +96,6 @@ fn no_water_is_lost_in_a_storm() {
     assert!(sum(snow.melted) > 100 && sum(snow.water) > sum(snow.melted), "some of it melts");
     let stats = world.snow_stats().expect("there is snow");
     assert!((stats.landed_kg - stats.lying_kg - stats.melted_kg).abs() < 1e-9, "{stats:?}");
-}
-
-/// Flakes sample the air in every other step. In turbulence they fall, drift and shake as particles do that sample it in every step.
-#[test]
-fn flakes_fly_as_other_particles_do() {
-    let mut scene = snowy(10.0, -2.0, 12.0, 6000);
-    scene.wind.speed = MeanSpeed::MetresPerSecond(4.0);
-    scene.wind.turbulence = Turbulence { intensity: 0.3, cell_m: 1.0, ..Turbulence::default() };
-    let others =
-        Particles { release: ParticleRelease::Rate { per_s: 600.0, from_s: -8.0 }, ..flakes(6000, 6.0) };
-    scene.particles.push(Particles { name: "others".into(), ..others });
-    let mut world = World::build(&scene).expect("valid");
-    oracle::step(&mut world, 20);
-    let motions = |world: &World, population: usize, steps: std::ops::Range<u32>| {
-        let block = &world.compiled.block().populations[population];
-        let slots = block.first_slot as usize..(block.first_slot + block.count) as usize;
-        let rows = world.particles.place[slots.clone()].iter().zip(&world.particles.motion[slots]);
-        let flies = |place: &ParticlePlace| particle_state(place.bits) == PARTICLE_ALIVE;
-        let ages = |motion: &ParticleMotion| steps.contains(&world.clock.step().wrapping_sub(motion.birth));
-        let velocities: Vec<DVec3> = rows
-            .filter(|(place, motion)| flies(place) && ages(motion))
-            .map(|(_, motion)| Vec3::from(motion.velocity).as_dvec3())
-            .collect();
-        let count = velocities.len() as f64;
-        let mean = velocities.iter().sum::<DVec3>() / count;
-        let spread = velocities.iter().map(|velocity| (velocity - mean).powf(2.0)).sum::<DVec3>() / count;
-        (count, mean, spread.map(f64::sqrt))
-    };
-    // Born at rest, they are taken along within a tenth of a second.
-    let [(_, young, _), (_, other_young, _)] = [0, 1].map(|number| motions(&world, number, 4..9));
-    assert!((young - other_young).length() < 0.4, "soon after birth: {young} m/s, others {other_young}");
-    let [(count, mean, spread), (_, other_mean, other_spread)] =
-        [0, 1].map(|number| motions(&world, number, 40..80));
-    assert!(count > 1000.0, "{count} flakes");
-    assert!((-1.5..-0.9).contains(&mean.y) && mean.x > 2.0, "they fall and drift: {mean}");
-    assert!((mean - other_mean).length() < 0.1, "{mean} m/s, others {other_mean}");
-    for (one, other) in spread.to_array().into_iter().zip(other_spread.to_array()) {
-        assert!(other > 0.1 && (0.9..1.1).contains(&(one / other)), "{spread} m/s, others {other_spread}");
-    }
-}
-
-/// As much falls as the weather says, evenly over the rectangle, from the first second on.
-#[test]
-fn snow_falls_as_the_weather_says() {
-    for wind_m_s in [0.0, 4.0] {
-        let mut scene = snowy(10.0, -2.0, 8.0, 6000);
-        let weather = scene.weather.as_mut().expect("stated");
-        weather.snow_mm_h = vec![(0.0, 10.0), (20.0, 10.0), (40.0, 0.0)];
-        scene.wind.speed = MeanSpeed::MetresPerSecond(wind_m_s);
-        let mut world = World::build(&scene).expect("valid");
-        let mut before = 0.0;
-        // 10 mm an hour for 20 s and half of that on average for another 20 s, of which the last come down late: 5 m at a metre a second.
-        for (until_s, expected_mm) in [(10u16, 10.0 / 360.0), (20, 10.0 / 360.0), (60, 20.0 / 360.0)] {
-            while world.clock.seconds() < f64::from(until_s) - 1e-6 {
-                oracle::step(&mut world, 1);
-            }
-            let snow = world.bed.snow(world.compiled.block());
-            let fallen_mm = mm(sum(snow.landed), &world) - before;
-            let off = (fallen_mm / expected_mm - 1.0).abs();
-            // Up to 60 s comes what was in the air at 20 s besides, 5 s of snowfall at ten.
-            let late = if until_s == 60 { 0.25 } else { 0.0 };
-            assert!(off < 0.05 + late, "{wind_m_s} m/s until {until_s} s: {fallen_mm} of {expected_mm} mm");
-            before += fallen_mm;
-        }
-        // Quarters of the square have the same within the noise of some thousand flakes.
-        let block = world.compiled.block();
-        let snow = world.bed.snow(block);
-        let columns = block.snow.columns as usize;
-        let mut quarters = [0u64; 4];
-        for (cell, water) in snow.landed.iter().enumerate() {
-            let side = |at: usize| usize::from(at >= columns / 2);
-            quarters[side(cell % columns) + 2 * side(cell / columns)] += u64::from(*water);
-        }
-        let total = sum(snow.landed) as f64;
-        for quarter in quarters {
-            let off = quarter as f64 / (0.25 * total) - 1.0;
-            assert!(off.abs() < 0.06, "{wind_m_s} m/s: {quarters:?}");
-        }
-    }
 }
 
 /// 10 mm of water at -2 °C make 12 to 15 cm of snow; a day later it has settled, and it never becomes denser than old snow.
