@@ -6,7 +6,7 @@
 use windfall_core::{Contract, SimError, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
-use crate::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
+use crate::compare::{LONG_OTHERS, LONG_POSITION_M, LONG_QUATERNION, difference};
 use crate::strategies::{
     flying_scene, hilly_scene, littered_scene, smooth_scene, varied_scene, wooded_scene,
 };
@@ -116,7 +116,7 @@ fn agree(case: &Case, contract: Contract, expected: &World, found: &World) -> Re
         (Contract::Exact, _) => apart.is_none(),
         (Contract::Tolerant, true) => {
             apart.is_finite()
-                && apart.leaves().integer_rows == 0
+                && apart.leaves().integer_rows <= expected.leaves.len() / LONG_OTHERS as usize
                 && apart.leaves().largest("place.position") <= LONG_POSITION_M
                 && apart.leaves().largest("attitude.quaternion") <= LONG_QUATERNION
         }
@@ -155,7 +155,8 @@ fn mean_segment_distance_m(expected: &World, found: &World) -> f64 {
     a.iter().zip(b).map(distance).sum::<f64>() / a.len().max(1) as f64
 }
 
-/// Returns true if about as many leaves are in each state, and all together are at the same place.
+/// Returns true if about as many leaves are in each state, and all together are at the same place, but for what chance does to the mean of ways that
+/// have parted: three standard errors.
 fn statistics_agree(expected: &World, found: &World) -> bool {
     let counts = |world: &World| {
         let stats = world.stats();
@@ -169,6 +170,12 @@ fn statistics_agree(expected: &World, found: &World) -> bool {
     let (a, b) = (counts(expected), counts(found));
     let others = a.iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0);
     let (a, b) = (mean(expected), mean(found));
+    let apart_m = |axis: usize| (a[axis] - b[axis]).abs();
+    let error_m = |axis: usize| {
+        let places = expected.leaves.place.iter().zip(&found.leaves.place);
+        let squares = places.map(|(a, b)| f64::from(a.position[axis] - b.position[axis]).powi(2));
+        (squares.sum::<f64>() / count).sqrt() / count.sqrt()
+    };
     f64::from(others) <= OTHER_STATES * count
-        && (0..3).all(|axis| (a[axis] - b[axis]).abs() <= MEAN_POSITION_M)
+        && (0..3).all(|axis| apart_m(axis) <= MEAN_POSITION_M + 3.0 * error_m(axis))
 }

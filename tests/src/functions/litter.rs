@@ -70,7 +70,7 @@ functions! {
         layers_above(cx, (w[0] & 1) << SPECIES_SHIFT, 0.01).to_bits(),
     ]);
 
-    lying_wind in "leaf/wake" (SPECIES, NEAR, Input::Float(-0.02, 0.06), Input::Float(0.0, 0.02), Input::Float(0.1, 2.0)) tolerance Some(1e-3);
+    lying_wind in "leaf/wake" (SPECIES, NEAR, Input::Float(-0.02, 0.06), Input::Float(0.0, 0.02), Input::Float(0.1, 2.0)) tolerance Some(1e-2);
     wgsl "let p = in_vec3(1u); let place = vec3<f32>(p.x, ground_rest(p.x, p.y) - p.z, p.y); let bits = a.x << SPECIES_SHIFT;
         let met = lying_wind(bits, place, in_float(4u), in_float(5u)); let cover = cover_of(bits, place, in_float(4u));
         out_vec3(0u, met.wind); out_float(3u, met.cover);

@@ -79,9 +79,9 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
                 found,
                 place
             );
-            // The wind is read at a place given to within an ulp; a vortex or the turbulence may change it by as much
-            // as a tenth of the drift over a metre.
-            let reading = 0.1 * drift * ulp(place);
+            // The wind is read at a place given to within an ulp; a narrow vortex may change it by as much
+            // as twice the drift over a metre.
+            let reading = 2.0 * drift * ulp(place);
             prop_assert!(
                 found.leaves().largest("drift.velocity")
                     <= STEP_ULPS * (ulp(drift) + reading) + swung + flown,

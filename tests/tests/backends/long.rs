@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tier 3: ten thousand leaves, a thousand steps, wind and ground. Under the exact contract the state is the same to
-//! the last bit, in any wind. Under the tolerant one, in a wind without chaos, the integers are the same and positions
-//! stay together; in turbulence a rounding error grows e-fold every second or so, and the counts still agree.
+//! the last bit, in any wind. Under the tolerant one, in a wind without chaos, the integers of all leaves but one in a thousand are the same and
+//! positions stay together; in turbulence a rounding error grows e-fold every second or so, and the counts still agree.
 
 use windfall_core::motion::JOINED_COUNT;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
-use windfall_tests::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
+use windfall_tests::compare::{LONG_OTHERS, LONG_POSITION_M, LONG_QUATERNION, difference};
 use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene, winding_scene};
 use windfall_tests::{adapter, suite};
 use windfall_wgpu::{Shaders, WgpuOptions, WgpuSimulator};
@@ -78,7 +78,7 @@ fn a_thousand_steps_of_cone_spirals_agree() {
         let is_near = match contract {
             Contract::Exact => found.is_none(),
             Contract::Tolerant => {
-                found.leaves().integer_rows == 0
+                found.leaves().integer_rows <= (LEAVES / LONG_OTHERS) as usize
                     && found.is_finite()
                     && found.leaves().largest("place.position") <= LONG_POSITION_M
                     && found.leaves().largest("attitude.quaternion") <= LONG_QUATERNION
@@ -98,7 +98,8 @@ fn a_thousand_smooth_steps_stay_together_under_the_tolerant_contract() {
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
         let found = difference(&oracle, &on_gpu(&gpu, &world, &options, &[STEPS]));
-        assert_eq!(found.leaves().integer_rows, 0, "{}: {found:?}", gpu.info().name);
+        let others = found.leaves().integer_rows;
+        assert!(others <= (LEAVES / LONG_OTHERS) as usize, "{}: {found:?}", gpu.info().name);
         assert!(
             found.is_finite() && found.leaves().largest("place.position") <= LONG_POSITION_M,
             "{}: {found:?}",

@@ -19,6 +19,9 @@ mod loops;
 mod render;
 mod simulate;
 mod study;
+// Other processors flush by other means, other systems load by others.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod subnormals;
 mod tools;
 mod tree;
 mod viewer;

@@ -19,6 +19,10 @@ fn whole_speed(speed: f32) -> f32 {
     return select(speed, 0.0, max(speed, -speed) < LEAST_M_S);
 }
 
+fn whole_velocity(velocity: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(whole_speed(velocity.x), whole_speed(velocity.y), whole_speed(velocity.z));
+}
+
 fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
     let position = start.position;
     let velocity = start.velocity;
@@ -63,7 +67,7 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
             end.position = position + (velocity + end.velocity) * half;
         }
     }
-    end.velocity = vec3<f32>(whole_speed(end.velocity.x), whole_speed(end.velocity.y), whole_speed(end.velocity.z));
+    end.velocity = whole_velocity(end.velocity);
     if ((flags & POPULATION_SWIRLED) != 0u) {
         end.position = force_swirl(number, end.position);
     }

@@ -164,7 +164,7 @@ fn struck_velocity(
 
 fn wedged_velocity(velocity: vec3<f32>, first: vec3<f32>, second: vec3<f32>, third: vec3<f32>) -> vec3<f32> {
     var free = velocity - first * min(vec3_dot(velocity, first), 0.0);
-    if (vec3_dot(free, second) < 0.0) {
+    if (vec3_dot(free, second) < -ALONG_M_S) {
         let edge = vec3_cross(first, second);
         let squared = vec3_dot(edge, edge);
         if (squared < TINY_SQUARED) {
@@ -172,7 +172,7 @@ fn wedged_velocity(velocity: vec3<f32>, first: vec3<f32>, second: vec3<f32>, thi
         }
         free = edge * (vec3_dot(velocity, edge) * reciprocal(squared));
     }
-    if (vec3_dot(free, third) < 0.0) {
+    if (vec3_dot(free, third) < -ALONG_M_S) {
         return vec3<f32>(0.0, 0.0, 0.0);
     }
     return free;
@@ -258,6 +258,7 @@ fn particle_contact(number: u32, start: ParticleFlight, end: ParticleFlight, sec
         let strike = particle_strike(passage);
         contact.flight = ParticleFlight(passage.start + passage.way * strike.share, velocity);
     }
+    contact.flight.velocity = whole_velocity(contact.flight.velocity);
     return contact;
 }
 

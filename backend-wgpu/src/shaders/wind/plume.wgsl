@@ -97,6 +97,10 @@ fn plume_fire(moment: u32, plume: u32) -> PlumeFire {
     return PlumeFire(bitcast<f32>(words.y), bitcast<f32>(words.z));
 }
 
+fn plume_bell(squared: f32) -> f32 {
+    return select(0.0, exponential(-squared), squared < PLUME_EDGE);
+}
+
 fn plume_axis_warmth(height: f32) -> f32 {
     let above_foot = max(height, PLUME_FOOT);
     let inverse_cube = inverse_cube_root(above_foot);
@@ -117,7 +121,7 @@ fn plume_warmth(place: vec3<f32>) -> f32 {
         let inverse_width = reciprocal(point.height * PLUME_SPREAD + base_radius_m);
         let squared =
             (point.along * point.along + point.across * point.across) * (inverse_width * inverse_width);
-        warmth = max(warmth, plume_axis_warmth(point.height * fire.heights_per_m) * exponential(-squared));
+        warmth = max(warmth, plume_axis_warmth(point.height * fire.heights_per_m) * plume_bell(squared));
     }
     return warmth;
 }
@@ -136,7 +140,7 @@ fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32
     let inverse_width = reciprocal(height * PLUME_SPREAD + step_block.moments[moment].plumes[plume].base_radius_m);
     let inverse_squared = inverse_width * inverse_width;
     let squared = (along * along + across * across) * inverse_squared;
-    let bell = exponential(-squared);
+    let bell = plume_bell(squared);
     var within = (1.0 - bell) * reciprocal(max(squared, PLUME_NEAR_AXIS));
     if (squared < PLUME_NEAR_AXIS) {
         within = 1.0 - squared * (0.5 - squared * (1.0 / 6.0));

@@ -34,6 +34,12 @@ fn whole_speed<R: Real>(speed: R) -> R {
     speed.max(-speed).less_than(speed.all(LEAST_M_S)).select_real(speed.all(0.0), speed)
 }
 
+/// A velocity without components that are tiny.
+#[inline(always)]
+pub(super) fn whole_velocity<R: Real>(velocity: Vec3<R>) -> Vec3<R> {
+    Vec3::new(whole_speed(velocity.x), whole_speed(velocity.y), whole_speed(velocity.z))
+}
+
 /// A particle after a free step. Linear drag is exact; other places follow from the mean of both velocities. Forces act where half a
 /// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits. `mutual` is the acceleration by others of the population.
 /// The velocity of what coasts next is that after two steps.
@@ -86,8 +92,7 @@ pub fn particle_fly<R: Real>(
             end.position = position + (velocity + end.velocity) * half;
         }
     }
-    let Vec3 { x, y, z } = end.velocity;
-    end.velocity = Vec3::new(whole_speed(x), whole_speed(y), whole_speed(z));
+    end.velocity = whole_velocity(end.velocity);
     if (population.flags & POPULATION_SWIRLED) != 0 {
         end.position = force_swirl(cx, population, end.position);
     }

@@ -8,7 +8,7 @@
 //! Within a step a particle has a constant acceleration, the change of its velocity: between the ends of a straight way it is as far
 //! off it as that says. So a bounce has the speed of the moment at which it strikes, whatever the step.
 
-use super::fly::ParticleFlight;
+use super::fly::{ParticleFlight, whole_velocity};
 use super::record::{MEETS_DIE, MEETS_STICK, POPULATION_LOSS};
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::{inverse_sqrt, reciprocal};
@@ -33,6 +33,8 @@ crate::shared_constants! {
     pub const MOST_PIECES: u32 = 64;
     /// Squared speed in m²/s² along a surface below which there is none.
     pub const PARTICLE_STILL_SQUARED: f32 = 1e-12;
+    /// Speed in m/s into a surface below which a velocity leads along it: what rounding leaves of one from which the rest was taken.
+    pub const ALONG_M_S: f32 = 1e-5;
     /// Overlap in m from which on a particle is pushed out.
     pub const PUSHED_M: f32 = 1e-4;
 }
@@ -236,7 +238,7 @@ pub fn struck_velocity<R: Real>(
 #[inline(always)]
 pub fn wedged_velocity(velocity: Vec3, first: Vec3, second: Vec3, third: Vec3) -> Vec3 {
     let mut free = velocity - first * vec3_dot(velocity, first).min(0.0);
-    if vec3_dot(free, second) < 0.0 {
+    if vec3_dot(free, second) < -ALONG_M_S {
         let edge = vec3_cross(first, second);
         let squared = vec3_dot(edge, edge);
         if squared < TINY_SQUARED {
@@ -244,7 +246,7 @@ pub fn wedged_velocity(velocity: Vec3, first: Vec3, second: Vec3, third: Vec3) -
         }
         free = edge * (vec3_dot(velocity, edge) * reciprocal(squared));
     }
-    if vec3_dot(free, third) < 0.0 {
+    if vec3_dot(free, third) < -ALONG_M_S {
         return Vec3::ZERO;
     }
     free
@@ -343,6 +345,7 @@ pub fn particle_contact(
         let strike = particle_strike(cx, &passage);
         contact.flight = ParticleFlight { position: passage.from + passage.way * strike.share, velocity };
     }
+    contact.flight.velocity = whole_velocity(contact.flight.velocity);
     contact
 }
 

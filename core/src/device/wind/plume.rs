@@ -51,6 +51,8 @@ crate::shared_constants! {
     pub const PLUME_FOOT: f32 = 0.01;
     /// Squared distance from the axis in widths below which the share of a bell within it comes from its series.
     pub const PLUME_NEAR_AXIS: f32 = 0.02;
+    /// The same from which on there is nothing of it: further out it would become a subnormal number, which devices may take for zero.
+    pub const PLUME_EDGE: f32 = 40.0;
 }
 
 /// Speed on the axis of a plume over that of its fire, and how much it grows per height.
@@ -173,6 +175,12 @@ pub fn plume_fire(cx: &Context<'_>, plume: &PlumeBlock) -> PlumeFire {
     PlumeFire { speed_m_s: word(1), heights_per_m: word(2) }
 }
 
+/// Bell about the axis of a plume, by the squared distance from it in widths.
+#[inline(always)]
+fn plume_bell<R: Real>(squared: R) -> R {
+    squared.less_than(squared.all(PLUME_EDGE)).select_real(exponential(-squared), squared.all(0.0))
+}
+
 /// Temperature rise in K on the axis of a plume at a height over Q^0.4: [`PLUME_FLAME_K`] in the steady flame, then falling as measured.
 #[inline(always)]
 pub fn plume_axis_warmth(height: f32) -> f32 {
@@ -197,7 +205,7 @@ pub fn plume_warmth(cx: &Context<'_>, place: Vec3) -> f32 {
         let inverse_width = reciprocal(point.height * PLUME_SPREAD + plume.base_radius_m);
         let squared =
             (point.along * point.along + point.across * point.across) * (inverse_width * inverse_width);
-        warmth = warmth.max(plume_axis_warmth(point.height * fire.heights_per_m) * exponential(-squared));
+        warmth = warmth.max(plume_axis_warmth(point.height * fire.heights_per_m) * plume_bell(squared));
     }
     warmth
 }
@@ -212,7 +220,7 @@ pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>,
     let inverse_width = reciprocal(height * PLUME_SPREAD + plume.base_radius_m);
     let inverse_squared = inverse_width * inverse_width;
     let squared = (along * along + across * across) * inverse_squared;
-    let bell = exponential(-squared);
+    let bell = plume_bell(squared);
     let near = squared.less_than(level.all(PLUME_NEAR_AXIS));
     let series = one - squared * (one * 0.5 - squared * (1.0 / 6.0));
     let within = near.select_real(series, (one - bell) * reciprocal(squared.max(level.all(PLUME_NEAR_AXIS))));
