@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles snow: its grid, what it lies on, and the weather and the wind over it in a step.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::shelter::shelter_wind;
 use super::solids::bound_m;
@@ -17,7 +17,7 @@ use crate::device::wind::profile::profile_factor;
 use crate::layout::Uint4;
 use crate::litter::Bed;
 use crate::scene::{ParticleShape, Particles, Scene, Weather};
-use crate::solid::{Solid, entry_m};
+use crate::solid::Solid;
 use crate::tree::Forest;
 use crate::tree::skeleton::AttachmentKind;
 use crate::wind::ShelterGrid;
@@ -55,8 +55,6 @@ const BEARS_KG_M3: f64 = 46.0;
 const UNLOADS_FROM_C: f64 = -3.0;
 const UNLOADS_C_S: f64 = 1.87e5;
 const UNLOADS_M: f64 = 1.56e5;
-/// Height in m above everything from which solid things are seen.
-const ABOVE_M: f64 = 1e4;
 /// Distance in m from a leaf or twig within which there is a crown overhead.
 const CROWN_REACH_M: f64 = 0.4;
 /// Cells on each side over which the edge of a crown fades.
@@ -140,9 +138,9 @@ pub(super) fn snow_block(
         let reach_m = bound_m(solid);
         for cell in cells_within(&snow, DVec2::new(pose.center_m.x, pose.center_m.z), reach_m) {
             let at = place(cell);
-            let above = DVec3::new(at.x, ABOVE_M, at.y);
-            let Some(way_m) = entry_m(solid, &pose, above, DVec3::NEG_Y) else { continue };
-            base[cell].0 = base[cell].0.max(single(ABOVE_M - way_m));
+            if let Some(top_m) = solid.top_m(at.x, at.y) {
+                base[cell].0 = base[cell].0.max(single(top_m));
+            }
         }
     }
     let lees_m = shelter.map(|grid| {

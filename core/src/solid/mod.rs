@@ -5,6 +5,7 @@
 
 pub(crate) mod distance_grid;
 pub(crate) mod faces;
+mod footprint;
 #[cfg(feature = "gltf")]
 mod mesh_file;
 #[cfg(not(feature = "gltf"))]
@@ -18,6 +19,7 @@ mod trunk;
 mod walk;
 
 pub use crate::surface::Surface;
+pub use footprint::Footprint;
 pub(crate) use outline::Outline;
 pub use part::{Solid, SolidPose, solids_of};
 pub(crate) use sight::entry_m;

@@ -59,7 +59,8 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
             };
             let place = largest(|world, slot| world.leaves.place[slot].position);
             let drift = largest(|world, slot| world.leaves.drift[slot].velocity);
-            prop_assert_eq!(found.leaves().integer_rows, 0, "{:?}", found);
+            // What lands at the very end of the step may do so at the beginning of the next.
+            prop_assert!(found.leaves().integer_rows <= 1, "{:?}", found);
             prop_assert!(found.is_finite(), "{:?}", found);
             for column in ["base", "pose"] {
                 prop_assert!(found.segments().largest(column) <= STEP_SEGMENT, "{:?}", found);

@@ -5,12 +5,13 @@
 pub(crate) mod grass_pass;
 pub(crate) mod ground_pass;
 pub(crate) mod sky_pass;
+mod snow_caps;
+mod snow_cells;
 pub(crate) mod snow_map;
 pub(crate) mod snow_pass;
 mod terrain_mesh;
 pub(crate) mod water_pass;
 
-use windfall_core::device::terrain::snow;
 use windfall_core::layout::WgslStruct;
 
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
@@ -18,11 +19,14 @@ use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
-    let water = snow::wgsl_constants().into_iter().filter(|(name, _)| *name == "FLOOR_ON_WATER").collect();
-    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants(), water];
+    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants(), snow_cells::wgsl_constants()];
     shaders.extend([(
         "scenery/structs",
-        declarations(lists) + &grass_pass::GrassCell::declaration() + &snow_pass::SnowUniform::declaration(),
+        declarations(lists)
+            + &grass_pass::GrassCell::declaration()
+            + &snow_pass::SnowUniform::declaration()
+            + &snow_caps::CapNode::declaration()
+            + &snow_cells::DrawnCell::declaration(),
     )]);
     shaders.extend(wgsl_files!(
         "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass", "snow_map"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws the snow that lies, cell by cell on whatever it lies on.
+//! Draws the snow that lies: cell by cell on the ground, and as caps on things.
 
 use windfall_core::CompiledScene;
 use windfall_core::blocks::SceneBlock;
@@ -20,6 +20,8 @@ use crate::frame::scene_pipeline::ScenePipeline;
 use crate::gpu::pipeline::{buffer_entry, uniform_entry};
 use crate::gpu::shaders::compile;
 use crate::gpu::upload;
+use crate::scenery::snow_caps::SnowCaps;
+use crate::scenery::snow_cells::drawn_cells;
 
 /// Melted snow in mm of water that soaks the ground: set by eye.
 const SOAKED_MM: f32 = 1.0;
@@ -71,10 +73,14 @@ shared_struct! {
 pub(crate) struct SnowPass {
     compiled: CompiledScene,
     pipeline: wgpu::RenderPipeline,
+    cap_pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     /// The grids.
     pub(crate) uniform: wgpu::Buffer,
-    floors: wgpu::Buffer,
+    drawn: wgpu::Buffer,
+    caps: wgpu::Buffer,
+    cap_indices: wgpu::Buffer,
+    cap_corners: u32,
     group: Option<wgpu::BindGroup>,
     cells: u32,
 }
@@ -94,40 +100,57 @@ impl SnowPass {
                 uniform_entry(0),
                 buffer_entry(1, storage, wgpu::ShaderStages::VERTEX),
                 buffer_entry(2, storage, wgpu::ShaderStages::VERTEX),
+                buffer_entry(3, storage, wgpu::ShaderStages::VERTEX),
             ],
         });
         let shader = compile(device, &super::shaders(), "scenery/snow_pass");
-        let pipeline = ScenePipeline {
-            label: "snow",
-            frame,
-            groups: &[&light.layout, &layout],
-            topology: wgpu::PrimitiveTopology::TriangleList,
-            shader: &shader,
-            vertex: "vertex",
-            constants: &[],
-            buffers: &[],
-            blend: None,
-            depth_write: true,
-            alpha_to_coverage: true,
-        }
-        .build(device);
-        let snow = &compiled.block().snow;
-        let cells = snow.columns * snow.lines;
-        let rows = &compiled.tables()[snow.first_row as usize..][..cells.div_ceil(2) as usize];
-        let floors = upload::buffer(
-            device,
-            queue,
-            "floors of snow",
-            wgpu::BufferUsages::STORAGE,
-            bytemuck::cast_slice(rows),
-        );
+        let [pipeline, cap_pipeline] = ["vertex", "cap_vertex"].map(|vertex| {
+            ScenePipeline {
+                label: "snow",
+                frame,
+                groups: &[&light.layout, &layout],
+                topology: wgpu::PrimitiveTopology::TriangleList,
+                shader: &shader,
+                vertex,
+                constants: &[],
+                buffers: &[],
+                blend: None,
+                depth_write: true,
+                alpha_to_coverage: true,
+            }
+            .build(device)
+        });
+        let drawn = drawn_cells(compiled);
+        let caps = SnowCaps::new(compiled);
+        let upload = |label, usage, bytes: &[u8]| upload::buffer(device, queue, label, usage, bytes);
+        let storage = wgpu::BufferUsages::STORAGE;
+        let nodes = match &caps.nodes[..] {
+            [] => &[bytemuck::Zeroable::zeroed()],
+            nodes => nodes,
+        };
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("snow"),
             size: size_of::<SnowUniform>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Self { compiled: compiled.clone(), pipeline, layout, uniform, floors, group: None, cells }
+        Self {
+            compiled: compiled.clone(),
+            pipeline,
+            cap_pipeline,
+            layout,
+            uniform,
+            drawn: upload("cells of snow", storage, bytemuck::cast_slice(&drawn)),
+            caps: upload("caps of snow", storage, bytemuck::cast_slice(nodes)),
+            cap_indices: upload(
+                "triangles of caps",
+                wgpu::BufferUsages::INDEX,
+                bytemuck::cast_slice(&caps.indices),
+            ),
+            cap_corners: u32::try_from(caps.indices.len()).unwrap_or(u32::MAX),
+            group: None,
+            cells: compiled.block().snow.columns * compiled.block().snow.lines,
+        }
     }
 
     /// Depth in metres of the snow in the open at a time in seconds.
@@ -158,7 +181,8 @@ impl SnowPass {
         let resources = [
             self.uniform.as_entire_binding(),
             bed.buffer.as_entire_binding(),
-            self.floors.as_entire_binding(),
+            self.drawn.as_entire_binding(),
+            self.caps.as_entire_binding(),
         ];
         let entries: Vec<_> = (0..)
             .zip(resources)
@@ -175,6 +199,11 @@ impl SnowPass {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(2, group, &[]);
             pass.draw(0..6 * self.cells, 0..1);
+            if self.cap_corners > 0 {
+                pass.set_pipeline(&self.cap_pipeline);
+                pass.set_index_buffer(self.cap_indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(0..self.cap_corners, 0, 0..1);
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Snow that lies: a square for each cell, at the height of what it lies on, of the litter there and of its own depth. Cells on one level share
-// corners; where a level ends, snow tapers off.
+// Snow that lies. On the ground a square for each cell, at the height of the ground, of the litter there and of its own depth; cells share
+// corners. On things a cap, whose depth is that of the cells around; at its rims it rounds off.
 
 #import frame/fire_light
 #import frame/light
@@ -9,11 +9,15 @@
 
 @group(2) @binding(0) var<uniform> snow: SnowUniform;
 @group(2) @binding(1) var<storage, read> bed: array<u32>;
-// Floors of the cells: bits of the height in metres, and a word of which the lower half says if there is water.
-@group(2) @binding(2) var<storage, read> floors: array<vec2<u32>>;
+@group(2) @binding(2) var<storage, read> cells: array<DrawnCell>;
+@group(2) @binding(3) var<storage, read> caps: array<CapNode>;
 
 // Width in cells of the rim over which snow sinks to the ground beyond the rectangle, as white without it.
 const RIM_CELLS: i32 = 12;
+// Height in metres within which a cell's snow lies on the same side of a thing.
+const CAP_STEP_M: f32 = 0.35;
+// Reach in cells of what a cell bears.
+const CAP_REACH: f32 = 1.5;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -23,22 +27,44 @@ struct Varyings {
     @location(2) depth_m: f32,
 }
 
-// Height in metres of what a cell lies on, and its depth; less than no depth outside of the grid. Water is as far below as any edge.
-fn level_of(cell: vec2<i32>) -> vec2<f32> {
-    if any(cell < vec2(0)) || any(cell >= vec2<i32>(snow.snow_cells)) {
-        return vec2(0.0, -1.0);
-    }
-    let number = u32(cell.y) * snow.snow_cells.x + u32(cell.x);
-    let cells = snow.snow_cells.x * snow.snow_cells.y;
-    let floor_m = bitcast<f32>(floors[number].x);
-    if is_water(number) {
-        return vec2(floor_m - 2.0 * snow.step_m, 0.0);
-    }
-    return vec2(floor_m, f32(bed[snow.snow_word + cells + number]) * snow.depth_unit_m);
+fn is_outside(cell: vec2<i32>) -> bool {
+    return any(cell < vec2(0)) || any(cell >= vec2<i32>(snow.snow_cells));
 }
 
-fn is_water(number: u32) -> bool {
-    return (floors[number].y & 0xffffu) == FLOOR_ON_WATER;
+fn number_of(cell: vec2<i32>) -> u32 {
+    return u32(cell.y) * snow.snow_cells.x + u32(cell.x);
+}
+
+fn depth_of(number: u32) -> f32 {
+    return f32(bed[snow.snow_word + snow.snow_cells.x * snow.snow_cells.y + number]) * snow.depth_unit_m;
+}
+
+// Snow of a cell on the ground.
+struct Level {
+    base_m: f32,
+    depth_m: f32,
+    // Snow lies on the ground there, not on a thing.
+    lies: bool,
+}
+
+// The snow of a cell; that of another outside of the grid. Water is as far below as any edge.
+fn level_of(cell: vec2<i32>, other: Level) -> Level {
+    if is_outside(cell) {
+        return other;
+    }
+    let number = number_of(cell);
+    let found = cells[number];
+    switch found.lies_on {
+        case SNOW_ON_WATER: {
+            return Level(found.floor_m - 2.0 * snow.step_m, 0.0, true);
+        }
+        case SNOW_ON_THING: {
+            return Level(found.ground_m, 0.0, false);
+        }
+        default: {
+            return Level(found.floor_m, depth_of(number), true);
+        }
+    }
 }
 
 // Height of litter in metres at a corner of cells, by its number from the origin on.
@@ -50,30 +76,50 @@ fn litter_at(corner: vec2<i32>) -> f32 {
     return select(0.0, height, all(node == inside) && most.x > 0);
 }
 
-// Sums over the cells around a corner.
+// Snow at a corner of cells.
 struct Corner {
-    depth_m: f32,
     base_m: f32,
-    level_count: f32,
-    depth_count: f32,
+    depth_m: f32,
+    slope: vec2<f32>,
 }
 
-// One of the four cells around a corner, added to it, and its height as seen from a cell. Those on the level of that cell count in full; lower ones
-// are an edge; higher ones, a wall, do not count.
-fn add_cell(corner: ptr<function, Corner>, here: vec2<f32>, number: vec2<i32>) -> f32 {
-    let found = level_of(number);
-    let level = select(found, here, found.y < 0.0);
-    let apart = level.x - here.x;
-    if abs(apart) < snow.step_m {
-        (*corner).depth_m += level.y;
-        (*corner).base_m += level.x;
-        (*corner).level_count += 1.0;
-        (*corner).depth_count += 1.0;
-        return level.x + level.y;
+// Snow where four cells meet, as seen from one of them. Those on the level of that cell count in full, but for those on things, which stand in the snow
+// around; lower ones are an edge; higher ones, a wall, do not count.
+fn corner_of(here: Level, at: vec2<i32>) -> Corner {
+    var around = array<Level, 4>(here, here, here, here);
+    var depth_sum = 0.0;
+    var depth_count = 0.0;
+    var base_sum = 0.0;
+    var base_count = 0.0;
+    for (var cell = 0; cell < 4; cell++) {
+        let level = level_of(at + vec2((cell & 1) - 1, (cell >> 1) - 1), here);
+        around[cell] = level;
+        let apart = level.base_m - here.base_m;
+        let is_level = abs(apart) < snow.step_m;
+        if is_level {
+            base_sum += level.base_m;
+            base_count += 1.0;
+        }
+        if is_level && level.lies {
+            depth_sum += level.depth_m;
+        }
+        if level.lies && apart < snow.step_m {
+            depth_count += 1.0;
+        }
     }
-    let is_edge = apart < 0.0;
-    (*corner).depth_count += select(0.0, 1.0, is_edge);
-    return here.x + select(here.y, 0.0, is_edge);
+    let mean_m = depth_sum / max(depth_count, 1.0);
+    var heights = vec4(0.0);
+    for (var cell = 0; cell < 4; cell++) {
+        let level = around[cell];
+        let apart = level.base_m - here.base_m;
+        if abs(apart) < snow.step_m {
+            heights[cell] = level.base_m + select(mean_m, level.depth_m, level.lies);
+        } else {
+            heights[cell] = here.base_m + select(mean_m, 0.0, apart < 0.0);
+        }
+    }
+    let slope = 0.5 * vec2(heights.y + heights.w - heights.x - heights.z, heights.z + heights.w - heights.x - heights.y);
+    return Corner(base_sum / max(base_count, 1.0), mean_m, slope * snow.cells_per_m);
 }
 
 @vertex
@@ -83,27 +129,68 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     // Two triangles: corners 0, 2, 3 and 0, 3, 1, two bits each.
     let corner = (0x738u >> (2u * (index % 6u))) & 3u;
     let at = own + vec2(i32(corner & 1u), i32(corner >> 1u));
-    let here = level_of(own);
-    var sums = Corner(0.0, 0.0, 0.0, 0.0);
-    let a = add_cell(&sums, here, at - 1);
-    let b = add_cell(&sums, here, at - vec2(0, 1));
-    let c = add_cell(&sums, here, at - vec2(1, 0));
-    let d = add_cell(&sums, here, at);
-    let depth_m = sums.depth_m / max(sums.depth_count, 1.0);
-    let litter_m = litter_at(at + snow.snow_first);
-    let slope = 0.5 * vec2(b + d - a - c, c + d - a - b) * snow.cells_per_m;
+    let here = level_of(own, Level(0.0, 0.0, true));
+    let found = corner_of(here, at);
     let place = vec2<f32>(at + snow.snow_first) * snow.cell_m;
     var out: Varyings;
-    out.depth_m = depth_m;
-    out.normal = vec3(-slope.x, 1.0, -slope.y);
+    out.depth_m = found.depth_m;
+    out.normal = vec3(-found.slope.x, 1.0, -found.slope.y);
     let inner = min(at, vec2<i32>(snow.snow_cells) - at);
     let risen = clamp(f32(min(inner.x, inner.y)) / f32(RIM_CELLS), 0.0, 1.0);
-    out.world = vec3(place.x, sums.base_m / max(sums.level_count, 1.0) + litter_m + max(depth_m * risen, 0.002), place.y);
+    let litter_m = litter_at(at + snow.snow_first);
+    out.world = vec3(place.x, found.base_m + litter_m + max(found.depth_m * risen, 0.002), place.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     // No square lies on water.
-    if is_water(number) {
+    if cells[number].lies_on == SNOW_ON_WATER {
         out.clip = vec4(0.0, 0.0, -1.0, 1.0);
     }
+    return out;
+}
+
+// Depth in metres of the snow at a place on a thing: the mean of the cells around whose snow lies on that side of it, by how near they are.
+fn cap_depth(place: vec3<f32>) -> f32 {
+    let at = place.xz * snow.cells_per_m - vec2<f32>(snow.snow_first);
+    let own = vec2<i32>(floor(at));
+    var sum = 0.0;
+    var weights = 0.0;
+    for (var beside = 0; beside < 9; beside++) {
+        let cell = own + vec2(beside % 3 - 1, beside / 3 - 1);
+        if is_outside(cell) {
+            continue;
+        }
+        let number = number_of(cell);
+        let found = cells[number];
+        if found.lies_on != SNOW_ON_THING || abs(found.floor_m - place.y) > CAP_STEP_M {
+            continue;
+        }
+        let near = max(CAP_REACH - abs(vec2<f32>(cell) + 0.5 - at), vec2(0.0));
+        sum += near.x * near.y * depth_of(number);
+        weights += near.x * near.y;
+    }
+    return sum / max(weights, 1e-6);
+}
+
+// Depth of the snow at a corner of a cap, and its surface there: a quarter of a circle from the rim on.
+fn cap_surface(node: u32) -> vec4<f32> {
+    let of = caps[node];
+    let full_m = cap_depth(of.place_m) * of.bears;
+    let from_rim = 1.0 - clamp(of.rim_m / max(full_m, 1e-4), 0.0, 1.0);
+    let depth_m = full_m * sqrt(1.0 - from_rim * from_rim);
+    return vec4(of.place_m + vec3(0.0, depth_m + 0.002, 0.0), depth_m);
+}
+
+@vertex
+fn cap_vertex(@builtin(vertex_index) node: u32) -> Varyings {
+    let of = caps[node];
+    let here = cap_surface(node);
+    let along = cap_surface(of.after).xyz - cap_surface(of.before).xyz;
+    let across = cap_surface(of.far).xyz - cap_surface(of.near).xyz;
+    let normal = cross(across, along);
+    var out: Varyings;
+    out.world = here.xyz;
+    out.normal = select(vec3(0.0, 1.0, 0.0), normal * sign(normal.y), abs(normal.y) > 1e-9);
+    out.depth_m = here.w;
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
     return out;
 }
 

@@ -5,7 +5,8 @@
 use glam::{Vec2, Vec3};
 use image::RgbaImage;
 use windfall_core::device::leaf::record::{STATE_ATTACHED, STATE_FALLING};
-use windfall_core::scene::{Camera, Exposure, Tree, Water, Weather};
+use windfall_core::device::terrain::snow::SNOW_CELLS_PER_M;
+use windfall_core::scene::{Camera, Exposure, Litter, Object, ObjectShape, Tree, Water, Weather};
 use windfall_core::{CompiledScene, World};
 
 use super::{Bench, SIZE, bench, bench_with};
@@ -95,6 +96,70 @@ fn snow_stands_as_high_as_it_is_deep() {
     }
     let seen = super::differing(&level, &bench.draw_snow(&heap));
     assert!((100..4000).contains(&seen), "{seen} pixels differ");
+}
+
+/// Snow on a box at an angle to the cells ends where the box does: it covers its top, and nothing beside it.
+#[test]
+fn caps_end_where_what_bears_them_ends() {
+    const SIZE_M: Vec3 = Vec3::new(2.4, 0.5, 0.7);
+    let camera = Camera {
+        eye_m: Vec3::new(0.0, 4.4, 0.9),
+        target_m: Vec3::new(0.0, 0.5, 0.0),
+        vertical_fov_deg: 34.0,
+    };
+    let mut bench = bench(|scene| {
+        scene.ground.litter =
+            Some(Litter { leaf_area_index: 0.0, size_m: Vec2::splat(8.0), ..Litter::default() });
+        scene.weather =
+            Some(Weather { size_m: Vec2::splat(8.0), snow_mm_h: vec![(0.0, 0.0)], ..Weather::default() });
+        scene.objects = vec![Object {
+            shape: ObjectShape::Box { size_m: SIZE_M },
+            at_m: Vec3::new(0.0, 0.25, 0.0),
+            heading_deg: 33.0,
+            ..Object::default()
+        }];
+        scene.view.camera = camera;
+        scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 };
+    });
+    let world = World::build(&bench.scene).expect("valid");
+    let along = Vec2::new(33f32.to_radians().cos(), -33f32.to_radians().sin());
+    // Distance of a place within the top from its nearest edge.
+    let inset_m = |at: Vec2| {
+        let half_m = 0.5 * Vec2::new(SIZE_M.x, SIZE_M.z);
+        (half_m - Vec2::new(at.dot(along), at.dot(along.perp())).abs()).min_element()
+    };
+    // 6 cm on the box, and nothing around it.
+    let mut bed = world.bed.clone();
+    let block = world.compiled.block();
+    let middle =
+        |first: u32, number: u32| (first.cast_signed() as f32 + number as f32 + 0.5) / SNOW_CELLS_PER_M;
+    for (number, depth) in (0..).zip(bed.snow_mut(block).depth) {
+        let (column, line) = (number % block.snow.columns, number / block.snow.columns);
+        let at = Vec2::new(middle(block.snow.first_column, column), middle(block.snow.first_line, line));
+        *depth = if inset_m(at) > 0.0 { 15_729 } else { 0 };
+    }
+    let (bare, snowy) = (bench.draw_snow(&world.bed.words), bench.draw_snow(&bed.words));
+    let forward = (camera.target_m - camera.eye_m).normalize();
+    let right = forward.cross(Vec3::Y).normalize();
+    let reach = (0.5 * camera.vertical_fov_deg.to_radians()).tan();
+    let at = |x: u32, y: u32| {
+        let half = 0.5 * Vec2::new(SIZE.0 as f32, SIZE.1 as f32);
+        let off = (Vec2::new(x as f32, y as f32) + 0.5 - half) / half.y * reach;
+        let way = forward + right * off.x - right.cross(forward) * off.y;
+        // At the height of the middle of the snow.
+        let place = camera.eye_m + way * ((0.53 - camera.eye_m.y) / way.y);
+        Vec2::new(place.x, place.z)
+    };
+    let (mut top, mut white, mut beside) = (0, 0, 0);
+    for ((x, y, bare), snowy) in bare.enumerate_pixels().zip(snowy.pixels()) {
+        let inset_m = inset_m(at(x, y));
+        let is_white = bare.0.iter().zip(snowy.0).any(|(a, b)| a.abs_diff(b) > 40);
+        top += u32::from(inset_m > 0.05);
+        white += u32::from(inset_m > 0.05 && is_white);
+        beside += u32::from(inset_m < -0.05 && is_white);
+    }
+    println!("{white} of {top} pixels are white, and {beside} beside");
+    assert!(top > 1500 && white * 100 > top * 99 && beside == 0, "{white} of {top}, and {beside} beside");
 }
 
 /// A bare tree against the ground is brighter where snow lies on it, and nothing else changes.

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cells of snow as they are drawn: on the ground, on water, or on a thing, which bears a cap.
+
+use glam::DVec2;
+use windfall_core::device::terrain::snow::{FLOOR_ON_WATER, SNOW_CELLS_PER_M};
+use windfall_core::solid::{Footprint, Solid};
+use windfall_core::{CompiledScene, shared_constants, shared_struct};
+
+shared_constants! {
+    /// Snow lies on the ground of a cell.
+    pub(crate) const SNOW_ON_GROUND: u32 = 0;
+    /// There is water.
+    pub(crate) const SNOW_ON_WATER: u32 = 1;
+    /// It lies on a thing that has a cap.
+    pub(crate) const SNOW_ON_THING: u32 = 2;
+}
+
+/// Height in metres within which a cell's floor is that of a thing.
+const SAME_M: f64 = 0.002;
+
+shared_struct! {
+    /// A cell of snow as it is drawn.
+    pub(crate) struct DrawnCell, padding 4 {
+        /// Height in metres of what snow lies on.
+        floor_m: f32,
+        /// Height of the ground.
+        ground_m: f32,
+        /// Where it lies: [`SNOW_ON_GROUND`], [`SNOW_ON_WATER`] or [`SNOW_ON_THING`].
+        lies_on: u32,
+    }
+}
+
+/// Things on which snow lies: those that stand still, have an end, and let none through.
+pub(super) fn bearers(compiled: &CompiledScene) -> impl Iterator<Item = (&Solid, Footprint)> {
+    let still = compiled.solids().iter().filter(|solid| solid.open == 0.0);
+    still.filter_map(|solid| Some((solid, solid.footprint()?)))
+}
+
+/// The cells of snow of a scene as they are drawn.
+pub(super) fn drawn_cells(compiled: &CompiledScene) -> Vec<DrawnCell> {
+    let snow = &compiled.block().snow;
+    let cells = (snow.columns * snow.lines) as usize;
+    let rows = &compiled.tables()[snow.first_row as usize..][..cells.div_ceil(2)];
+    let floors: &[[u32; 2]] = bytemuck::cast_slice(rows);
+    let middles = (0..cells).map(|number| middle_m(compiled, number));
+    let drawn = floors.iter().zip(middles).map(|([height, packed], at)| {
+        let is_water = packed & 0xffff == FLOOR_ON_WATER;
+        let at = at.as_vec2();
+        DrawnCell {
+            floor_m: f32::from_bits(*height),
+            ground_m: compiled.ground_height(at.x, at.y),
+            lies_on: if is_water { SNOW_ON_WATER } else { SNOW_ON_GROUND },
+            ..bytemuck::Zeroable::zeroed()
+        }
+    });
+    let mut drawn: Vec<_> = drawn.collect();
+    mark_things(compiled, &mut drawn);
+    drawn
+}
+
+/// Middle of a cell, x and z.
+fn middle_m(compiled: &CompiledScene, cell: usize) -> DVec2 {
+    let snow = &compiled.block().snow;
+    let width = snow.columns as usize;
+    let first = [snow.first_column, snow.first_line].map(|first| f64::from(first.cast_signed()));
+    let number = DVec2::new((cell % width) as f64, (cell / width) as f64);
+    (DVec2::from(first) + number + 0.5) / f64::from(SNOW_CELLS_PER_M)
+}
+
+/// Marks the cells whose floor is that of a thing with a cap.
+fn mark_things(compiled: &CompiledScene, cells: &mut [DrawnCell]) {
+    for (solid, footprint) in bearers(compiled) {
+        let reach_m = footprint.half_m.length();
+        for (number, cell) in cells.iter_mut().enumerate() {
+            let at = middle_m(compiled, number);
+            if at.distance(footprint.center_m) > reach_m || cell.lies_on == SNOW_ON_WATER {
+                continue;
+            }
+            let is_floor = |top_m: f64| (top_m - f64::from(cell.floor_m)).abs() < SAME_M;
+            if cell.ground_m < cell.floor_m && solid.top_m(at.x, at.y).is_some_and(is_floor) {
+                cell.lies_on = SNOW_ON_THING;
+            }
+        }
+    }
+}
