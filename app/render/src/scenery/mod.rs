@@ -19,7 +19,7 @@ use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
-    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants(), snow_cells::wgsl_constants()];
+    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants()];
     shaders.extend([(
         "scenery/structs",
         declarations(lists)

@@ -5,29 +5,22 @@
 use glam::DVec2;
 use windfall_core::device::terrain::snow::{FLOOR_ON_WATER, SNOW_CELLS_PER_M};
 use windfall_core::solid::{Footprint, Solid};
-use windfall_core::{CompiledScene, shared_constants, shared_struct};
-
-shared_constants! {
-    /// Snow lies on the ground of a cell.
-    pub(crate) const SNOW_ON_GROUND: u32 = 0;
-    /// There is water.
-    pub(crate) const SNOW_ON_WATER: u32 = 1;
-    /// It lies on a thing that has a cap.
-    pub(crate) const SNOW_ON_THING: u32 = 2;
-}
+use windfall_core::{CompiledScene, shared_struct};
 
 /// Height in metres within which a cell's floor is that of a thing.
 const SAME_M: f64 = 0.002;
 
 shared_struct! {
     /// A cell of snow as it is drawn.
-    pub(crate) struct DrawnCell, padding 4 {
+    pub(crate) struct DrawnCell {
         /// Height in metres of what snow lies on.
         floor_m: f32,
         /// Height of the ground.
         ground_m: f32,
-        /// Where it lies: [`SNOW_ON_GROUND`], [`SNOW_ON_WATER`] or [`SNOW_ON_THING`].
-        lies_on: u32,
+        /// 1 on water, where none lies.
+        is_water: u32,
+        /// 1 on a thing, whose cap it is part of.
+        has_cap: u32,
     }
 }
 
@@ -45,13 +38,12 @@ pub(super) fn drawn_cells(compiled: &CompiledScene) -> Vec<DrawnCell> {
     let floors: &[[u32; 2]] = bytemuck::cast_slice(rows);
     let middles = (0..cells).map(|number| middle_m(compiled, number));
     let drawn = floors.iter().zip(middles).map(|([height, packed], at)| {
-        let is_water = packed & 0xffff == FLOOR_ON_WATER;
         let at = at.as_vec2();
         DrawnCell {
             floor_m: f32::from_bits(*height),
             ground_m: compiled.ground_height(at.x, at.y),
-            lies_on: if is_water { SNOW_ON_WATER } else { SNOW_ON_GROUND },
-            ..bytemuck::Zeroable::zeroed()
+            is_water: u32::from(packed & 0xffff == FLOOR_ON_WATER),
+            has_cap: 0,
         }
     });
     let mut drawn: Vec<_> = drawn.collect();
@@ -74,12 +66,12 @@ fn mark_things(compiled: &CompiledScene, cells: &mut [DrawnCell]) {
         let reach_m = footprint.half_m.length();
         for (number, cell) in cells.iter_mut().enumerate() {
             let at = middle_m(compiled, number);
-            if at.distance(footprint.center_m) > reach_m || cell.lies_on == SNOW_ON_WATER {
+            if at.distance(footprint.center_m) > reach_m || cell.is_water != 0 {
                 continue;
             }
             let is_floor = |top_m: f64| (top_m - f64::from(cell.floor_m)).abs() < SAME_M;
             if cell.ground_m < cell.floor_m && solid.top_m(at.x, at.y).is_some_and(is_floor) {
-                cell.lies_on = SNOW_ON_THING;
+                cell.has_cap = 1;
             }
         }
     }

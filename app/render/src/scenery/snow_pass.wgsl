@@ -54,17 +54,13 @@ fn level_of(cell: vec2<i32>, other: Level) -> Level {
     }
     let number = number_of(cell);
     let found = cells[number];
-    switch found.lies_on {
-        case SNOW_ON_WATER: {
-            return Level(found.floor_m - 2.0 * snow.step_m, 0.0, true);
-        }
-        case SNOW_ON_THING: {
-            return Level(found.ground_m, 0.0, false);
-        }
-        default: {
-            return Level(found.floor_m, depth_of(number), true);
-        }
+    if found.is_water != 0u {
+        return Level(found.floor_m - 2.0 * snow.step_m, 0.0, true);
     }
+    if found.has_cap != 0u {
+        return Level(found.ground_m, 0.0, false);
+    }
+    return Level(found.floor_m, depth_of(number), true);
 }
 
 // Height of litter in metres at a corner of cells, by its number from the origin on.
@@ -89,6 +85,8 @@ fn corner_of(here: Level, at: vec2<i32>) -> Corner {
     var around = array<Level, 4>(here, here, here, here);
     var depth_sum = 0.0;
     var depth_count = 0.0;
+    var under_sum = 0.0;
+    var under_count = 0.0;
     var base_sum = 0.0;
     var base_count = 0.0;
     for (var cell = 0; cell < 4; cell++) {
@@ -107,7 +105,15 @@ fn corner_of(here: Level, at: vec2<i32>) -> Corner {
             depth_count += 1.0;
         }
     }
-    let mean_m = depth_sum / max(depth_count, 1.0);
+    // Snow goes on as deep under the rim of a thing.
+    for (var cell = 0; cell < 16 && depth_count == 0.0; cell++) {
+        let level = level_of(at + vec2((cell & 3) - 2, (cell >> 2) - 2), here);
+        if level.lies && abs(level.base_m - here.base_m) < snow.step_m {
+            under_sum += level.depth_m;
+            under_count += 1.0;
+        }
+    }
+    let mean_m = select(depth_sum / max(depth_count, 1.0), under_sum / max(under_count, 1.0), depth_count == 0.0);
     var heights = vec4(0.0);
     for (var cell = 0; cell < 4; cell++) {
         let level = around[cell];
@@ -141,7 +147,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     out.world = vec3(place.x, found.base_m + litter_m + max(found.depth_m * risen, 0.002), place.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     // No square lies on water.
-    if cells[number].lies_on == SNOW_ON_WATER {
+    if cells[number].is_water != 0u {
         out.clip = vec4(0.0, 0.0, -1.0, 1.0);
     }
     return out;
@@ -160,7 +166,7 @@ fn cap_depth(place: vec3<f32>) -> f32 {
         }
         let number = number_of(cell);
         let found = cells[number];
-        if found.lies_on != SNOW_ON_THING || abs(found.floor_m - place.y) > CAP_STEP_M {
+        if found.has_cap == 0u || abs(found.floor_m - place.y) > CAP_STEP_M {
             continue;
         }
         let near = max(CAP_REACH - abs(vec2<f32>(cell) + 0.5 - at), vec2(0.0));
@@ -172,19 +178,19 @@ fn cap_depth(place: vec3<f32>) -> f32 {
 
 // Depth of the snow at a corner of a cap, and its surface there: a quarter of a circle from the rim on.
 fn cap_surface(node: u32) -> vec4<f32> {
-    let of = caps[node];
-    let full_m = cap_depth(of.place_m) * of.bears;
-    let from_rim = 1.0 - clamp(of.rim_m / max(full_m, 1e-4), 0.0, 1.0);
+    let corner = caps[node];
+    let full_m = cap_depth(corner.place_m) * corner.bears;
+    let from_rim = 1.0 - clamp(corner.rim_m / max(full_m, 1e-4), 0.0, 1.0);
     let depth_m = full_m * sqrt(1.0 - from_rim * from_rim);
-    return vec4(of.place_m + vec3(0.0, depth_m + 0.002, 0.0), depth_m);
+    return vec4(corner.place_m + vec3(0.0, depth_m + 0.002, 0.0), depth_m);
 }
 
 @vertex
 fn cap_vertex(@builtin(vertex_index) node: u32) -> Varyings {
-    let of = caps[node];
+    let corner = caps[node];
     let here = cap_surface(node);
-    let along = cap_surface(of.after).xyz - cap_surface(of.before).xyz;
-    let across = cap_surface(of.far).xyz - cap_surface(of.near).xyz;
+    let along = cap_surface(corner.after).xyz - cap_surface(corner.before).xyz;
+    let across = cap_surface(corner.far).xyz - cap_surface(corner.near).xyz;
     let normal = cross(across, along);
     var out: Varyings;
     out.world = here.xyz;
