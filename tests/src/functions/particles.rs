@@ -254,7 +254,7 @@ functions! {
         floats(mutual_pull(population(cx, w), vector(w, 1), vector(w, 4), [x, y, z, float(w[10])]).to_array())
     };
 
-    particle_fly in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW) tolerance Some(1e-4);
+    particle_fly in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW) tolerance Some(1e-2);
     wgsl "let end = particle_fly(a.x, ParticleFlight(in_vec3(1u), in_vec3(4u)), vec2<f32>(in_float(7u), in_float(8u)), in_vec3(9u));
         out_vec3(0u, end.position); out_vec3(3u, end.velocity);";
     rust |cx, w| {
@@ -263,7 +263,7 @@ functions! {
         flight(end)
     };
 
-    particle_free_step in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW, ANY) tolerance Some(1e-4);
+    particle_free_step in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW, ANY) tolerance Some(1e-2);
     wgsl "let end = particle_free_step(a.x, in_word(12u), ParticleFlight(in_vec3(1u), in_vec3(4u)), vec2<f32>(in_float(7u), in_float(8u)), in_vec3(9u));
         out_vec3(0u, end.position); out_vec3(3u, end.velocity);";
     rust |cx, w| {

@@ -81,8 +81,8 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
                 place
             );
             // The wind is read at a place given to within an ulp; a narrow vortex may change it by as much
-            // as twice the drift over a metre.
-            let reading = 2.0 * drift * ulp(place);
+            // as four times the drift over a metre.
+            let reading = 4.0 * drift * ulp(place);
             prop_assert!(
                 found.leaves().largest("drift.velocity")
                     <= STEP_ULPS * (ulp(drift) + reading) + swung + flown,

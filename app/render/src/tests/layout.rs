@@ -181,7 +181,7 @@ const WITH_AXES: [&str; 9] = [
 const LISTS: [&str; 4] = ["heights", "kernel", "strips", "texels_m"];
 
 /// Buffers that are rows of vectors: columns of the branches, whose rows are positions and quaternions.
-const ROWS: [&str; 5] = ["branch_base", "branch_pose", "rest_base", "rest_pose", "floors"];
+const ROWS: [&str; 4] = ["branch_base", "branch_pose", "rest_base", "rest_pose"];
 
 /// Returns true for vectors of two or four. Vectors of three have axes.
 fn is_flat(inner: &TypeInner) -> bool {

@@ -36,7 +36,7 @@ fn whole_speed<R: Real>(speed: R) -> R {
 
 /// A velocity without components that are tiny.
 #[inline(always)]
-pub(super) fn whole_velocity<R: Real>(velocity: Vec3<R>) -> Vec3<R> {
+pub fn whole_velocity<R: Real>(velocity: Vec3<R>) -> Vec3<R> {
     Vec3::new(whole_speed(velocity.x), whole_speed(velocity.y), whole_speed(velocity.z))
 }
 
