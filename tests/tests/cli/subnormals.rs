@@ -69,7 +69,7 @@ fn subnormal_numbers_change_nothing() {
         let [kept, flushed] = [None, Some(&library)].map(|library| hash_after(&folder, name, "300", library));
         assert_eq!(kept, flushed, "{name}");
     }
-    for (preset, steps) in [("bonfire", "120"), ("gale", "60"), ("particle-lab", "240"), ("snowstorm", "30")]
+    for (preset, steps) in [("bonfire", "120"), ("gale", "60"), ("particle-lab", "240"), ("first-snow", "60")]
     {
         let [kept, flushed] =
             [None, Some(&library)].map(|library| hash_after(&folder, preset, steps, library));
