@@ -39,10 +39,16 @@ fn map_place(map: u32, position: vec3<f32>) -> vec3<f32> {
     return (frame.shadows[map] * vec4(lifted, 1.0)).xyz;
 }
 
+// Share of a full turn by which a place turns the samples around it, at random for cells of four millimetres: a wave would make rings with the pixels.
+fn own_turn(position: vec3<f32>) -> f32 {
+    let cell = bitcast<vec3<u32>>(vec3<i32>(floor(position * 250.0)));
+    return unit_from(hash_u32(cell.x + hash_u32(cell.y + hash_u32(cell.z))));
+}
+
 // Sunlight that leaves and trees in the shadow maps let through to `position`, 0 to 1: by the finest map that holds it.
 // Towards the edge of a map more and more places are left to the next one, so that one map is read for each.
 fn leaf_shadow(position: vec3<f32>) -> f32 {
-    let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
+    let own = own_turn(position);
     let spin = own * 6.2831853;
     let limit = mix(0.86, 0.985, fract(own * 61.7));
     var map = CASCADES;
@@ -112,7 +118,7 @@ fn open_above(position: vec3<f32>, taps: u32) -> f32 {
         return 1.0;
     }
     let clip = (frame.shadows[CASCADES] * vec4(position + vec3(0.0, 0.12, 0.0), 1.0)).xyz;
-    let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
+    let own = own_turn(position);
     let scale = SKY_REACH_M / (frame.texels_m[CASCADES] * f32(textureDimensions(shadow_maps).x));
     var sum = 0.0;
     for (var tap = 0u; tap < taps; tap++) {
@@ -136,7 +142,7 @@ fn open_beside(position: vec3<f32>) -> f32 {
         return 1.0;
     }
     let clip = (frame.shadows[CASCADES] * vec4(position + vec3(0.0, 0.08, 0.0), 1.0)).xyz;
-    let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
+    let own = own_turn(position);
     let scale = FOOT_REACH_M / (frame.texels_m[CASCADES] * f32(textureDimensions(shadow_maps).x));
     var sum = 0.0;
     for (var tap = 0u; tap < FOOT_TAPS; tap++) {

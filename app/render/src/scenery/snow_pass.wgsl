@@ -19,6 +19,10 @@ const CAP_STEP_M: f32 = 0.35;
 // Reach in cells of what a cell bears.
 const CAP_REACH: f32 = 1.5;
 
+// Periods of the noise in a metre, of bumps and of grains.
+const BUMPS_PER_M: f32 = 0.31;
+const GRAINS_PER_M: f32 = 2.3;
+
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
@@ -200,12 +204,17 @@ fn cap_vertex(@builtin(vertex_index) node: u32) -> Varyings {
     return out;
 }
 
+// Level of the noise, so many of which go into a metre, that is as coarse as a pixel: finer ones would make rings.
+fn pixel_lod(pixel_m: f32, per_m: f32) -> f32 {
+    return log2(max(pixel_m * per_m * f32(textureDimensions(noise).x), 1.0));
+}
+
 // Bumps of the surface at a place: height in metres and its slope, which fade with distance.
 fn bumps(at: vec2<f32>, lod: f32) -> vec3<f32> {
     let step = 0.012 * exp2(lod);
-    let here = textureSampleLevel(noise, repeat_sampler, at * 0.31, lod).g;
-    let right = textureSampleLevel(noise, repeat_sampler, (at + vec2(step, 0.0)) * 0.31, lod).g;
-    let far = textureSampleLevel(noise, repeat_sampler, (at + vec2(0.0, step)) * 0.31, lod).g;
+    let here = textureSampleLevel(noise, repeat_sampler, at * BUMPS_PER_M, lod).g;
+    let right = textureSampleLevel(noise, repeat_sampler, (at + vec2(step, 0.0)) * BUMPS_PER_M, lod).g;
+    let far = textureSampleLevel(noise, repeat_sampler, (at + vec2(0.0, step)) * BUMPS_PER_M, lod).g;
     return vec3(here - 0.5, vec2(right - here, far - here) / step);
 }
 
@@ -213,9 +222,10 @@ fn bumps(at: vec2<f32>, lod: f32) -> vec3<f32> {
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let at = in.world.xz;
     let distance_m = distance(in.world, frame.eye_m);
+    let pixel_m = max(length(dpdx(at)), length(dpdy(at)));
     let lod = clamp(log2(distance_m * 0.16), 0.0, 5.0);
-    let bump = bumps(at, lod);
-    let grain = textureSampleLevel(noise, repeat_sampler, at * 2.3, max(lod - 1.0, 0.0)).b - 0.5;
+    let bump = bumps(at, max(lod, pixel_lod(pixel_m, BUMPS_PER_M)));
+    let grain = textureSampleLevel(noise, repeat_sampler, at * GRAINS_PER_M, pixel_lod(pixel_m, GRAINS_PER_M)).b - 0.5;
     // Thin snow lies in patches, first between what sticks out.
     let patches = 0.006 + 0.012 * (bump.x + 0.5) + 0.006 * grain;
     let cover = smoothstep(0.25 * patches, patches, in.depth_m);
