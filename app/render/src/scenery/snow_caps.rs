@@ -29,13 +29,13 @@ shared_struct! {
         place_m: [f32; 3],
         /// Distance from the nearest rim in metres.
         rim_m: f32,
-        /// Numbers of the next corners along the first side and along the second, back and on; its own where there is none.
+        /// Number of the corner before it along the first side; its own where there is none.
         before: u32,
-        /// On along the first.
+        /// Number of the corner after it along the first side, likewise.
         after: u32,
-        /// Back along the second.
+        /// Number of the corner before it along the second side, likewise.
         near: u32,
-        /// On along the second.
+        /// Number of the corner after it along the second side, likewise.
         far: u32,
         /// Share of the snow that lies there, as steep as it is.
         bears: f32,
