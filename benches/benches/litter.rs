@@ -6,10 +6,9 @@
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{contenders, falling, flying, littered, time_steps, world};
+use windfall_benches::{contenders, falling, flying, littered, stepped, time_steps, world};
 use windfall_core::device::leaf::wake::COVER_INTERVAL;
 use windfall_core::{Scene, Simulator, World};
-use windfall_cpu::{CpuOptions, CpuSimulator};
 
 const LEAVES: u32 = 1_000_000;
 /// Edge in m of a lawn on which the leaves lie singly.
@@ -24,12 +23,9 @@ const SETTLED_STEPS: u32 = 300;
 const DEEP_START: u32 = 440;
 const DEEP_STEPS: u32 = 80;
 
-/// The world of a scene some steps on.
+/// The world of a scene some steps on; prints what lies there.
 fn settled(scene: &Scene, steps: u32) -> World {
-    let start = world(scene);
-    let mut simulator = CpuSimulator::new(&start, CpuOptions::default()).expect("threads can be started");
-    simulator.step(steps).expect("the CPU steps");
-    let settled = simulator.world().clone();
+    let settled = stepped(scene, steps);
     eprintln!("{}: {:?}", scene.name, settled.litter_stats());
     settled
 }

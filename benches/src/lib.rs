@@ -9,6 +9,7 @@ use glam::{Vec2, Vec3};
 use windfall_core::scene::{
     Aerodynamics, Air, Direction, FlightModel, Force, ForceKind, Litter, MeanSpeed, Meets, ObjectFriction,
     ParticleRelease, ParticleShape, Particles, Release, SourceShape, Species, Spread, SwirlProfile, Tree,
+    Weather,
 };
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -22,6 +23,8 @@ pub const WARM_UP_STEPS: u32 = 4;
 const HIGH_M: f32 = 300.0;
 /// Depth of their cloud in metres: they read every layer of the turbulence.
 const DEPTH_M: f32 = 40.0;
+/// Steps in which the first flakes of [`snowing`] have come down.
+pub const SNOWING_STEPS: u32 = 720;
 /// Steps after which [`falling`] begins anew.
 pub const FALLING_STEPS: u32 = 2000;
 
@@ -170,6 +173,49 @@ pub fn attracting(count: u32) -> Scene {
     scene
 }
 
+/// Ten millimetres of snow on a level square with an edge of so many metres, in frost and a steady wind of a mean speed in m/s at a height of
+/// 10 m. None falls.
+pub fn snowed(edge_m: f32, speed_m_s: f32) -> Scene {
+    let mut scene = Scene { name: format!("snow on {edge_m} m in {speed_m_s} m/s"), ..Scene::default() };
+    scene.sources[0].count = 1;
+    scene.wind.speed = MeanSpeed::MetresPerSecond(speed_m_s);
+    scene.weather = Some(Weather {
+        size_m: Vec2::splat(edge_m),
+        snow_mm_h: vec![(0.0, 0.0)],
+        air_c: vec![(0.0, -5.0)],
+        lying_mm: 10.0,
+        ..Weather::default()
+    });
+    scene
+}
+
+/// So many flakes in the air of [`falling`], born as fast as they land: nearly all are in the air after [`SNOWING_STEPS`]. One leaf falls beside them.
+pub fn snowing(count: u32) -> Scene {
+    let mut scene = falling(1);
+    scene.name = format!("{count} flakes");
+    let half_extent_m = Vec3::new(40.0, 0.5, 40.0);
+    scene.weather = Some(Weather {
+        size_m: 2.0 * Vec2::new(half_extent_m.x, half_extent_m.z),
+        // None before time zero: births there are taken one by one.
+        snow_mm_h: vec![(0.0, 0.0), (0.01, 2.0)],
+        air_c: vec![(0.0, -5.0), (0.01, -5.0)],
+        ..Weather::default()
+    });
+    scene.particles = vec![Particles {
+        name: "flakes".into(),
+        count,
+        from: ParticleShape::Box { center_m: Vec3::new(0.0, 10.0, 0.0), half_extent_m },
+        release: ParticleRelease::Snowfall,
+        life_s: Some(Spread::Constant(12.0)),
+        size_m: Spread::Uniform(0.0055, 0.0030),
+        density_kg_m3: 80.0,
+        air: Air::Settling { m_s: Spread::Normal(1.0, 0.12) },
+        meets: Meets::Die,
+        ..Particles::default()
+    }];
+    scene
+}
+
 /// A square of so many maples, birches and oaks of an age, in a fresh breeze, with `leaves` leaves on every tree, if it has
 /// as many, and none in the air or about to be shed.
 pub fn woods(trees: u16, age: f32, leaves: u32) -> Scene {
@@ -203,6 +249,17 @@ pub const YOUNG: f32 = 0.4;
 /// If the scene is not valid.
 pub fn world(scene: &Scene) -> World {
     World::build(scene).expect("benches use valid scenes only")
+}
+
+/// A world of a scene some steps on.
+///
+/// # Panics
+/// If the scene is not valid.
+pub fn stepped(scene: &Scene, steps: u32) -> World {
+    let mut simulator =
+        CpuSimulator::new(&world(scene), CpuOptions::default()).expect("threads can be started");
+    simulator.step(steps).expect("the CPU steps");
+    simulator.world().clone()
 }
 
 /// The best adapter, or the one that `WINDFALL_BENCH_ADAPTER` names. Says on the terminal, once, which it is or that

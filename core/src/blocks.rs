@@ -86,9 +86,10 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
-    /// Place of the shelter table (see [`wind_shelter`](crate::device::wind::shelter::wind_shelter)).
+    /// Place of a shelter table (see [`wind_shelter`](crate::device::wind::shelter::wind_shelter)).
     pub struct ShelterBlock {
-        /// Lack of wind that a unit of the table stands for, as a share of the mean wind; 0 if nothing shelters anything.
+        /// Lack of wind that a unit of the table stands for, as a share of the mean wind; 0 if nothing shelters anything. Zero in the finer table, whose
+        /// units are those of the other.
         pub lack_unit: f32,
         /// First row of the table.
         pub first_row: u32,
@@ -524,6 +525,8 @@ crate::shared_struct! {
         pub unused: u32,
         /// Shelter from the wind.
         pub shelter: ShelterBlock,
+        /// A finer table of it around the solid things, without cells if there is none.
+        pub near_shelter: ShelterBlock,
         /// The wind.
         pub wind: WindBlock,
         /// The litter.

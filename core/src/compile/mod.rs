@@ -67,7 +67,7 @@ use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
 use crate::threads::both;
 use crate::tree::{Branches, Forest};
-use crate::wind::{ShelterGrid, turbulence_box};
+use crate::wind::{ShelterGrids, turbulence_box};
 
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
@@ -121,12 +121,12 @@ impl CompiledScene {
         let seedlings = seedlings(scene, solids.own(), |x, z| foot_height(&block, &tables, x, z))?;
         let forest = Forest::plant(seedlings, scene.gravity_m_s2);
         solids.add_trunks(scene, &forest);
-        let shelter = ShelterGrid::of(scene, solids.own(), &forest);
-        if let Some(grid) = &shelter {
-            let rows = shelter_rows(grid, scene, solids.own(), &forest, &block, &tables);
-            block.shelter = grid.block(len32(tables.len()));
+        let shelter = ShelterGrids::of(scene, solids.own(), &forest);
+        if let Some(grids) = &shelter {
+            let rows = shelter_rows(grids, scene, solids.own(), &forest, &block, &tables);
+            [block.shelter, block.near_shelter] = grids.blocks(len32(tables.len()));
             if is_sheltered(scene, &rows) {
-                block.shelter.lack_unit = grid.lack_unit;
+                block.shelter.lack_unit = grids.lack_unit();
             }
             tables.extend(rows);
         }
@@ -195,7 +195,7 @@ impl CompiledScene {
             self.replace_rows(self.block.first_shed_row, &rows);
         }
         retune_block(&self.scene, self.solids.own(), &mut self.block);
-        let shelter = ShelterGrid::of(&self.scene, self.solids.own(), &self.forest);
+        let shelter = ShelterGrids::of(&self.scene, self.solids.own(), &self.forest);
         if shelter_inputs(&self.scene) != inputs && self.block.has_snow() {
             let first_row = self.block.snow.first_row;
             let dry_m = |x_m, z_m| dry_height(&self.block, &self.tables, x_m, z_m);
@@ -204,14 +204,15 @@ impl CompiledScene {
                 snow_block(&self.scene, &self.block, solids, forest, shelter.as_ref(), first_row, dry_m);
             self.replace_rows(first_row, &rows);
         }
-        if let Some(grid) = shelter {
+        if let Some(grids) = shelter {
             if shelter_inputs(&self.scene) != inputs {
                 let (solids, block) = (self.solids.own(), &self.block);
-                let rows = shelter_rows(&grid, &self.scene, solids, &self.forest, block, &self.tables);
+                let rows = shelter_rows(&grids, &self.scene, solids, &self.forest, block, &self.tables);
                 self.replace_rows(self.block.shelter.first_row, &rows);
             }
-            let rows = &self.tables[self.block.shelter.first_row as usize..][..grid.row_count()];
-            self.block.shelter.lack_unit = if is_sheltered(&self.scene, rows) { grid.lack_unit } else { 0.0 };
+            let rows = &self.tables[self.block.shelter.first_row as usize..][..grids.row_count()];
+            self.block.shelter.lack_unit =
+                if is_sheltered(&self.scene, rows) { grids.lack_unit() } else { 0.0 };
         }
     }
 
@@ -287,9 +288,9 @@ impl CompiledScene {
         foot_height(&self.block, &self.tables, x_m, z_m)
     }
 
-    /// A step in which snow lies for so many seconds in the mean wind and the air of another, as one of many rounds.
+    /// A step in which snow lies for so many seconds in the wind and the air of another, as one of many rounds.
     pub(crate) fn lying_step(&self, of: &StepBlock, round: u32, seconds: f64) -> StepBlock {
-        snow::lying_step(&self.scene, &self.block, of, round, seconds)
+        snow::lying_step(&self.scene, &self.block, &self.tables, of, round, seconds)
     }
 
     /// Snow that the weather alone leaves in the open at a time in seconds; `None` without weather.

@@ -10,18 +10,18 @@ use crate::layout::Uint4;
 use crate::scene::{Profile, Scene};
 use crate::solid::Solid;
 use crate::tree::Forest;
-use crate::wind::{ShelterGrid, ShelterWind};
+use crate::wind::{ShelterGrids, ShelterWind};
 
-/// Rows of the shelter table; the tables hold the hills.
+/// Rows of the shelter tables; the tables hold the hills.
 pub(super) fn shelter_rows(
-    grid: &ShelterGrid,
+    grids: &ShelterGrids,
     scene: &Scene,
     solids: &[Solid],
     forest: &Forest,
     block: &SceneBlock,
     tables: &[Uint4],
 ) -> Vec<Uint4> {
-    grid.rows(scene, solids, forest, &shelter_wind(scene), |x_m, z_m| {
+    grids.rows(scene, solids, forest, &shelter_wind(scene), |x_m, z_m| {
         foot_height(block, tables, single(x_m), single(z_m)).into()
     })
 }

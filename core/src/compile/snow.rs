@@ -13,6 +13,7 @@ use crate::device::terrain::snow::{
     SNOW_TURNS, SNOW_UNIT_KG, SNOW_WATER_MM, snow_cell,
 };
 use crate::device::tree::branch_snow::CROWN_UNITS_M2;
+use crate::device::wind::gust::GUST_ROWS;
 use crate::device::wind::profile::profile_factor;
 use crate::layout::Uint4;
 use crate::litter::Bed;
@@ -20,7 +21,7 @@ use crate::scene::{ParticleShape, Particles, Scene, Weather};
 use crate::solid::Solid;
 use crate::tree::Forest;
 use crate::tree::skeleton::AttachmentKind;
-use crate::wind::ShelterGrid;
+use crate::wind::ShelterGrids;
 
 /// Melt in mm of water per day and °C above 0 °C under the open sky, and in woods (Kuusisto, Nordic Hydrology 11, 1980).
 const MELT_MM_DAY_C: [f64; 2] = [3.5, 2.4];
@@ -107,7 +108,7 @@ pub(super) fn snow_block(
     block: &SceneBlock,
     solids: &[Solid],
     forest: &Forest,
-    shelter: Option<&ShelterGrid>,
+    shelter: Option<&ShelterGrids>,
     first_row: u32,
     ground: impl Fn(f32, f32) -> Option<f32>,
 ) -> (SnowBlock, Vec<Uint4>) {
@@ -143,9 +144,9 @@ pub(super) fn snow_block(
             }
         }
     }
-    let lees_m = shelter.map(|grid| {
+    let lees_m = shelter.map(|grids| {
         let ground_m = |x_m, z_m| ground(single(x_m), single(z_m)).unwrap_or(block.surface_height_m).into();
-        grid.filled_m(solids, &shelter_wind(scene), ground_m, (0..cells).map(|cell| place(cell).to_array()))
+        grids.filled_m(solids, &shelter_wind(scene), ground_m, (0..cells).map(|cell| place(cell).to_array()))
     });
     let lees_m = lees_m.into_iter().flatten().chain(std::iter::repeat(0.0));
     let words: Vec<u32> =
@@ -325,11 +326,15 @@ pub struct OpenSnow {
 /// Longest step in s in which it is followed.
 const OPEN_STEP_S: f64 = 60.0;
 
-/// A step that stands for so many seconds of the mean wind and the air of another, and of an exchange of drifting snow: one of many rounds in which
-/// snow lies before time zero.
+/// Rows of the table of gusts from one round in which snow lies to the next: odd, so that rounds meet all of them in turn.
+const LYING_GUST_ROWS: u32 = 37;
+
+/// A step that stands for so many seconds of the wind, with the gusts of a row of their table, and the air of another, and of an exchange of drifting
+/// snow: one of many rounds in which snow lies before time zero.
 pub(super) fn lying_step(
     scene: &Scene,
     block: &SceneBlock,
+    tables: &[Uint4],
     of: &StepBlock,
     round: u32,
     seconds: f64,
@@ -342,7 +347,8 @@ pub(super) fn lying_step(
         *number *= rounds;
     }
     step.snow.drift_units *= rounds / exchange as f32;
-    step.snow.drift_m_s = snow_friction(scene, block, 0.0);
+    let row = block.wind.first_gust_row + (round.wrapping_mul(LYING_GUST_ROWS) & (GUST_ROWS - 1));
+    step.snow.drift_m_s = snow_friction(scene, block, f32::from_bits(tables[row as usize].0[0]));
     step
 }
 

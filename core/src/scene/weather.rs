@@ -21,7 +21,7 @@ pub struct Weather {
     pub air_c: Vec<(f32, f32)>,
     /// Water in mm of the fresh snow that lies there from the start, 0 to 500.
     pub lying_mm: f32,
-    /// Hours for which that snow has lain in the mean wind and the air of time zero, 0 to 12: it has drifted, settled and melted meanwhile.
+    /// Hours for which that snow has lain in the wind and the air of time zero, 0 to 12: it has drifted, settled and melted meanwhile.
     pub lying_h: f32,
 }
 

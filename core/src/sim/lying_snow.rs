@@ -16,7 +16,7 @@ pub(super) fn rounds_of(compiled: &CompiledScene, hours: f64) -> f64 {
     3600.0 * hours / (f64::from(SNOW_INTERVAL * SNOW_TURNS) * f64::from(compiled.scene().dt_s))
 }
 
-/// Lets the snow of a world lie for so many hours, in the mean wind and the air of a step.
+/// Lets the snow of a world lie for so many hours, in the wind and the air of a step.
 pub(super) fn lie(compiled: &CompiledScene, step: &StepBlock, bed: &mut Bed, hours: f64) {
     let rounds = word(libm::ceil(hours * ROUNDS_PER_H));
     for round in 0..rounds {

@@ -9,8 +9,10 @@ mod beaufort;
 mod bluff;
 mod porous;
 mod shelter;
+mod shelter_grids;
 mod synthesis;
 
 pub use beaufort::{BEAUFORT_MAX, beaufort_speed};
-pub use shelter::{ShelterGrid, ShelterWind};
+pub use shelter::ShelterWind;
+pub use shelter_grids::ShelterGrids;
 pub use synthesis::turbulence_box;

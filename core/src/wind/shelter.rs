@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The shelter table: the share of the mean wind that is left behind trees, hills and solid things, on a level grid.
+//! Share of the mean wind that is left behind trees, hills and solid things, on a level grid.
 //!
 //! # Model
 //! Trees have the wakes of [`PorousWake`], solid things that stand on the ground and are at least half as wide as high those of [`BluffWake`].
@@ -14,8 +14,8 @@
 
 use std::ops::Range;
 
-use super::bluff::{BluffWake, Footprint, MOST_REVERSED, wake_heights};
-use super::porous::{PorousWake, SLENDER_LENGTHS, SWAY_HEIGHTS, WAKE_HEIGHTS};
+use super::bluff::{BluffWake, Footprint};
+use super::porous::PorousWake;
 use crate::blocks::ShelterBlock;
 use crate::convert::{single, word};
 use crate::device::wind::shelter::SHELTER_LAYERS;
@@ -28,24 +28,14 @@ use crate::tree::Forest;
 /// Heights of the table: one more than its layers.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
 const LEVELS: usize = SHELTER_LAYERS as usize + 1;
-/// Smallest cell in m where there are no solid things.
-const LEAST_CELL_M: f64 = 1.0;
-/// Smallest cell in m where there are.
-const LEAST_SOLID_CELL_M: f64 = 0.25;
-/// Smallest cell where there are, in heights of the lowest one that shelters.
-const CELL_HEIGHTS: f64 = 0.25;
 /// Height in m of the lowest solid thing that shelters.
 const LEAST_SOLID_M: f64 = 0.2;
 /// The same in layers of the table.
 const LEAST_SOLID_LAYERS: f64 = 0.25;
 /// Gap below a solid thing, in its heights, up to which it stands on the ground.
-const STANDING_GAP: f64 = 0.1;
+pub(super) const STANDING_GAP: f64 = 0.1;
 /// Width in heights of the narrowest solid thing with the wake of a bluff body.
-const LEAST_BLUFF: f64 = 0.5;
-/// Most cells along an edge.
-const MOST_CELLS: f64 = 192.0;
-/// Top of the table relative to the height of the tallest tree.
-const TOP_HEIGHTS: f64 = 2.0;
+pub(super) const LEAST_BLUFF: f64 = 0.5;
 /// Slope of the line below which hills shelter: the tangent of 15°.
 const LEE_SLOPE: f64 = 0.267_949_192_431_122_7;
 /// Share of the mean wind that is missing deep below that line: an assumption.
@@ -54,29 +44,27 @@ const LEE_LACK: f64 = 0.7;
 const LEE_DEPTH_M: f64 = 2.0;
 /// Most places upwind at which higher ground is looked for.
 const MOST_LEE_STEPS: f64 = 256.0;
-/// Numbers that a lack in the table may have.
-const UNITS: f32 = 65_536.0;
 /// Rows of nodes that a thread works on at a time.
 const BAND_ROWS: usize = 16;
 
 /// Shares of the wind that are left at the heights of a node.
 pub(super) type Node = [f64; LEVELS];
 
-/// Place and cells of the shelter table of a scene: the same for every direction of the wind.
+/// Place and cells of a shelter table: the same for every direction of the wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShelterGrid {
+pub(super) struct ShelterGrid {
     /// Least x in m.
-    pub west_m: f64,
+    pub(super) west_m: f64,
     /// Least z in m.
-    pub north_m: f64,
+    pub(super) north_m: f64,
     /// Edge of a cell in m.
-    pub cell_m: f64,
+    pub(super) cell_m: f64,
     /// Cells along x and z.
-    pub cells: [usize; 2],
+    pub(super) cells: [usize; 2],
     /// Height of a layer in m.
-    pub layer_m: f64,
+    pub(super) layer_m: f64,
     /// Share of the mean wind that a unit of the table lacks.
-    pub lack_unit: f32,
+    pub(super) lack_unit: f32,
 }
 
 /// The wind that the table is made for.
@@ -109,14 +97,14 @@ impl ShelterWind {
 
 /// Wakes of solid things.
 #[derive(Clone, Debug, Default)]
-struct SolidWakes {
-    bluff: Vec<BluffWake>,
+pub(super) struct SolidWakes {
+    pub(super) bluff: Vec<BluffWake>,
     others: Vec<PorousWake>,
 }
 
 impl SolidWakes {
     /// The wakes of those that stand still and are high enough for the table.
-    fn of(
+    pub(super) fn of(
         solids: &[Solid],
         grid: &ShelterGrid,
         wind: &ShelterWind,
@@ -149,78 +137,19 @@ fn both_left(first: f64, second: f64) -> f64 {
 }
 
 /// Outlines of solid things that may shelter.
-fn sheltering(solids: &[Solid]) -> impl Iterator<Item = Outline> {
+pub(super) fn sheltering(solids: &[Solid]) -> impl Iterator<Item = Outline> {
     let outlines = solids.iter().filter_map(Outline::of_still);
     outlines.filter(|outline| outline.height_m() >= LEAST_SOLID_M)
 }
 
 impl ShelterGrid {
-    /// The grid of a scene: around its trees and solid things and the wakes that they may have, and around the hills' square. `None` if the
-    /// scene has none of them.
-    pub fn of(scene: &Scene, solids: &[Solid], forest: &Forest) -> Option<Self> {
-        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        let mut include = |x_m: f64, z_m: f64, reach_m: f64| {
-            for (axis, at_m) in [x_m, z_m].into_iter().enumerate() {
-                least[axis] = least[axis].min(at_m - reach_m);
-                most[axis] = most[axis].max(at_m + reach_m);
-            }
-        };
-        let mut top_m = 0.0f64;
-        for tree in forest.trees() {
-            let tall_m = f64::from(tree.skeleton.height_m());
-            let ends = tree.skeleton.segments.iter().map(|segment| segment.end_m.as_dvec3());
-            let rim_m = ends.map(|end| libm::hypot(end.x, end.z)).fold(0.0, f64::max);
-            let reach_m = rim_m + (WAKE_HEIGHTS + SWAY_HEIGHTS) * tall_m;
-            include(tree.foot_m.x.into(), tree.foot_m.z.into(), reach_m + LEAST_CELL_M);
-            top_m = top_m.max(TOP_HEIGHTS * tall_m);
-        }
-        if let Some(terrain) = scene.ground.terrain {
-            include(0.0, 0.0, 0.5 * f64::from(terrain.edge_m));
-            top_m = top_m.max(terrain.relief_m.into());
-        }
-        let mut least_cell_m = LEAST_CELL_M;
-        let mut most_lack = 1.0;
-        for outline in sheltering(solids) {
-            // Before solid things the wind turns back.
-            most_lack = 1.0 + MOST_REVERSED;
-            // One that stands on the ground may reach up higher by its gap.
-            let tall_m = (1.0 + STANDING_GAP) * outline.height_m();
-            let middle_m = outline.middle_m();
-            let rims = outline.points.iter().map(|at| libm::hypot(at.x - middle_m.x, at.z - middle_m.z));
-            let rim_m = rims.fold(0.0, f64::max);
-            let wide_m = 2.0 * rim_m;
-            let bluff_m = tall_m * wake_heights(wide_m / outline.height_m());
-            let slender_m = SLENDER_LENGTHS * libm::sqrt(wide_m * tall_m);
-            let reach_m = if wide_m < LEAST_BLUFF * tall_m { slender_m } else { bluff_m };
-            include(middle_m.x, middle_m.z, rim_m + reach_m + LEAST_CELL_M);
-            top_m = top_m.max(TOP_HEIGHTS * tall_m);
-            least_cell_m = least_cell_m.min(CELL_HEIGHTS * tall_m);
-        }
-        if top_m <= 0.0 {
-            return None;
-        }
-        let edges = [most[0] - least[0], most[1] - least[1]];
-        let cell_m = (edges[0].max(edges[1]) / MOST_CELLS).max(least_cell_m.max(LEAST_SOLID_CELL_M));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MOST_CELLS")]
-        let cells = edges.map(|edge_m| (libm::ceil(edge_m / cell_m).clamp(1.0, MOST_CELLS)) as usize);
-        let layer_m = top_m / f64::from(SHELTER_LAYERS);
-        Some(Self {
-            west_m: least[0],
-            north_m: least[1],
-            cell_m,
-            cells,
-            layer_m,
-            lack_unit: most_lack / UNITS,
-        })
-    }
-
     /// Number of rows of the table.
-    pub fn row_count(&self) -> usize {
+    pub(super) fn row_count(&self) -> usize {
         (LEVELS - 1) * self.cells[0] * self.cells[1]
     }
 
     /// The grid as kernels read it, switched off, with the table from that row on.
-    pub fn block(&self, first_row: u32) -> ShelterBlock {
+    pub(super) fn block(&self, first_row: u32) -> ShelterBlock {
         ShelterBlock {
             lack_unit: 0.0,
             first_row,
@@ -233,23 +162,22 @@ impl ShelterGrid {
         }
     }
 
-    /// The table for a wind over ground of these heights: for every cell of every layer the lack of wind at its corners, along x and then along
-    /// z, below and above.
-    pub fn rows(
+    /// Lacks of wind at the nodes over ground of these heights, those of a row along x one after another.
+    pub(super) fn lacks(
         &self,
         scene: &Scene,
         solids: &[Solid],
         forest: &Forest,
         wind: &ShelterWind,
-        ground_height_m: impl Fn(f64, f64) -> f64 + Sync,
-    ) -> Vec<Uint4> {
+        ground_height_m: &(impl Fn(f64, f64) -> f64 + Sync),
+    ) -> Vec<Node> {
         let nodes = self.cells.map(|cells| cells + 1);
         let wakes: Vec<_> =
             forest.trees().iter().filter_map(|tree| PorousWake::of(tree, forest, self, wind)).collect();
-        let solids = SolidWakes::of(solids, self, wind, &ground_height_m);
+        let solids = SolidWakes::of(solids, self, wind, ground_height_m);
         let layer_m = self.layer_m;
         let bands = (0..nodes[1]).step_by(BAND_ROWS).map(|first| first..(first + BAND_ROWS).min(nodes[1]));
-        let left = each(bands, |band| {
+        let lacks = each(bands, |band| {
             let mut left = vec![[1.0; LEVELS]; nodes[0] * band.len()];
             for wake in wakes.iter().chain(&solids.others) {
                 self.add_wake(&mut left, &band, wake.reach_m(), wind, |place| wake.lack(place, layer_m));
@@ -258,20 +186,54 @@ impl ShelterGrid {
                 self.add_wake(&mut left, &band, wake.reach_m(), wind, |place| wake.lack(place, layer_m));
             }
             if let Some(terrain) = scene.ground.terrain {
-                self.add_lee(&mut left, &band, terrain.relief_m.into(), wind, &ground_height_m);
+                self.add_lee(&mut left, &band, terrain.relief_m.into(), wind, ground_height_m);
             }
-            left
+            left.into_iter().map(|node| node.map(|left| 1.0 - left)).collect::<Vec<_>>()
         });
-        let left = left.concat();
-        // The wind is free at the edges and at the top, and so it is beyond them.
-        let lack = |x: usize, z: usize, level: usize| {
-            let is_edge = x == 0 || z == 0 || x == self.cells[0] || z == self.cells[1] || level + 1 == LEVELS;
-            let lack = if is_edge { 0.0 } else { 1.0 - left[z * nodes[0] + x][level] };
-            word(lack / f64::from(self.lack_unit)).min(0xffff)
+        lacks.concat()
+    }
+
+    /// Sets the lacks at the edges and at the top to those at places, x and z in m, so many metres above the ground.
+    pub(super) fn set_rim(&self, lacks: &mut [Node], lack_at: impl Fn([f64; 2], f64) -> f64) {
+        let width = self.cells[0] + 1;
+        for (number, node) in lacks.iter_mut().enumerate() {
+            let (x, z) = (number % width, number / width);
+            let is_edge = x == 0 || z == 0 || x == self.cells[0] || z == self.cells[1];
+            for level in if is_edge { 0 } else { LEVELS - 1 }..LEVELS {
+                node[level] = lack_at(self.node_m(x, z), level as f64 * self.layer_m);
+            }
+        }
+    }
+
+    /// Lack at a place, x and z in m, so many metres above the ground: as in [`wind_shelter`](crate::device::wind::shelter::wind_shelter).
+    pub(super) fn lack_at(&self, lacks: &[Node], [x_m, z_m]: [f64; 2], above_m: f64) -> f64 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the grid")]
+        let split = |at: f64, cells: usize| {
+            let at = at.clamp(0.0, cells as f64);
+            let cell = (at as usize).min(cells - 1);
+            (cell, at - cell as f64)
+        };
+        let (x, x_share) = split((x_m - self.west_m) / self.cell_m, self.cells[0]);
+        let (z, z_share) = split((z_m - self.north_m) / self.cell_m, self.cells[1]);
+        let (level, up) = split(above_m / self.layer_m, LEVELS - 1);
+        let between = |from: f64, to: f64, share: f64| from + share * (to - from);
+        let along = |z: usize, level: usize| {
+            let row = &lacks[z * (self.cells[0] + 1)..];
+            between(row[x][level], row[x + 1][level], x_share)
+        };
+        let at = |level: usize| between(along(z, level), along(z + 1, level), z_share);
+        between(at(level), at(level + 1), up)
+    }
+
+    /// The rows of a table of lacks.
+    pub(super) fn rows(&self, lacks: &[Node]) -> Vec<Uint4> {
+        let width = self.cells[0] + 1;
+        let units = |x: usize, z: usize, level: usize| {
+            word(lacks[z * width + x][level] / f64::from(self.lack_unit)).min(0xffff)
         };
         let mut rows = Vec::with_capacity(self.row_count());
         for layer in 0..LEVELS - 1 {
-            let corner = |x, z| lack(x, z, layer) | lack(x, z, layer + 1) << 16;
+            let corner = |x, z| units(x, z, layer) | units(x, z, layer + 1) << 16;
             for z in 0..self.cells[1] {
                 rows.extend((0..self.cells[0]).map(|x| {
                     Uint4([corner(x, z), corner(x + 1, z), corner(x, z + 1), corner(x + 1, z + 1)])
@@ -279,27 +241,6 @@ impl ShelterGrid {
             }
         }
         rows
-    }
-
-    /// Depths of snow in m that fill the wakes of solid things at places, x and z in m; zero where there are none. Trees shelter however deep it lies.
-    pub fn filled_m(
-        &self,
-        solids: &[Solid],
-        wind: &ShelterWind,
-        ground_height_m: impl Fn(f64, f64) -> f64,
-        places_m: impl Iterator<Item = [f64; 2]>,
-    ) -> Vec<f64> {
-        let wakes = SolidWakes::of(solids, self, wind, &ground_height_m).bluff;
-        let reaches: Vec<_> = wakes.iter().map(BluffWake::reach_m).collect();
-        let filled_m = |[x_m, z_m]: [f64; 2]| {
-            let place = wind.frame(x_m, z_m);
-            let reach = |reach: &[[f64; 2]; 2]| {
-                (0..2).all(|axis| (reach[axis][0]..reach[axis][1]).contains(&place[axis]))
-            };
-            let near = wakes.iter().zip(&reaches).filter(|(_, reaches)| reach(reaches));
-            near.map(|(wake, _)| wake.filled_m(place)).fold(0.0, f64::max)
-        };
-        places_m.map(filled_m).collect()
     }
 
     /// Place of a node in m.

@@ -3,7 +3,7 @@
 //! Changes of one constant or operator of a device function that must be noticed.
 
 /// Module, a line of it, the line changed, and a function of the table that shows it.
-pub(crate) const EDITS: [(&str, &str, &str, &str); 127] = [
+pub(crate) const EDITS: [(&str, &str, &str, &str); 129] = [
     ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
     ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
     ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
@@ -66,6 +66,8 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 127] = [
     ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
     ("wind/shelter", "word >> 16u", "word >> 15u", "wind_shelter"),
     ("wind/shelter", "kw * shelter.cells_z", "kw * shelter.cells_x", "wind_shelter"),
+    ("wind/shelter", "fine.first_row - scene.shelter.first_row", "fine.first_row", "wind_shelter"),
+    ("wind/shelter", ">= SHELTER_LAYERS", ">= SHELTER_LAYERS - 1.0", "wind_shelter"),
     ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
     ("terrain/ground", "corners.w - corners.z)", "corners.z - corners.w)", "ground_relief"),
     ("terrain/ground", "<< shift", "<< (shift - 1u)", "ground_relief"),

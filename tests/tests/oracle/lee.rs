@@ -141,6 +141,34 @@ fn wakes_of_solids_grow_with_their_height_and_width() {
     }
 }
 
+/// The table around solid things is as fine among tall trees as it is without them, and where it ends the wind does not jump.
+#[test]
+fn low_walls_shelter_among_tall_trees_as_they_do_alone() {
+    let wall = block([6.0, 0.5, 0.2], [0.0, 0.0]);
+    let alone = Shares::of(&yard(vec![wall.clone()]));
+    let mut scene = maples(&[[-80.0, 80.0]]);
+    scene.objects = vec![wall];
+    let among = Shares::of(&scene);
+    for behind_m in [-1.0, 0.6, 1.0, 2.0, 4.0, 7.0] {
+        for up_m in [0.02, 0.25, 0.6] {
+            for across_m in [0.0, 2.0, 3.5] {
+                let shares = [&alone, &among].map(|shares| shares.at(at(behind_m, up_m, across_m)));
+                assert!(
+                    (shares[0] - shares[1]).abs() < 0.005,
+                    "{behind_m} m behind, {up_m} m up, {across_m} m aside: alone and among trees {shares:.3?}"
+                );
+            }
+        }
+    }
+    // Up through the top of the finer table, where the coarser one knows of no wall.
+    let share = |number: u32| among.at(at(2.5, 0.02 * f64::from(number), 0.0));
+    let steps = (1..150).map(|number| (share(number) - share(number - 1)).abs());
+    let most = steps.fold(0.0, f64::max);
+    println!("up behind the wall, from 2 cm to 2 cm at most {most:.3}");
+    assert!(share(2) < 0.2 && share(149) > 0.99, "{} at the ground, {} above", share(2), share(149));
+    assert!(most < 0.06, "the wind jumps by {most} above the wall");
+}
+
 #[test]
 fn the_lee_turns_with_the_wind() {
     let mut scene = yard(vec![block([6.0, 2.0, 6.0], [0.0, 0.0])]);

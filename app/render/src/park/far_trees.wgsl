@@ -45,6 +45,12 @@ fn autumn(hue: f32) -> vec3<f32> {
     return mix(color, vec3(0.33, 0.085, 0.030), clamp(h - 2.0, 0.0, 1.0));
 }
 
+// Share of a crown or of wood that snow covers: what faces up, and more of it the deeper snow lies in the open. By eye.
+fn snow_on_tree(normal: vec3<f32>, grain: f32) -> f32 {
+    let deep = smoothstep(0.0, 0.10, frame.snow_depth_m);
+    return deep * smoothstep(0.75, 1.0, normal.y + 0.5 * grain + 0.45 * deep);
+}
+
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let surface = textureSample(sprites, sprite_sampler, in.uv, in.sprite * 2u);
@@ -63,7 +69,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
 
     let leaf = autumn(in.look.x + (surface.g - 0.5) * 0.5) * in.look.y * (0.35 + 0.9 * surface.r);
     let bark = vec3(0.105, 0.074, 0.052) * (0.5 + surface.r);
-    let albedo = mix(leaf, bark, surface.b);
+    let snow = snow_on_tree(normal, surface.r);
+    let albedo = mix(mix(leaf, bark, surface.b), vec3(0.84, 0.86, 0.88), snow);
     let light = frame.sun_direction;
     let facing = dot(normal, light);
     let open = relief.b;
@@ -71,7 +78,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // Leaves let the sun through: the crown's thin rim glows against it.
     let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
     let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.15, 0.95, 0.6);
-    let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
+    let through = saturated * (1.0 - surface.b) * (1.0 - snow) * against * open * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color * hill_light(in.world) * (albedo * lit + through);
     color += albedo * (ambient_light(normal) * (0.25 + 0.75 * open) + fire_light(in.world, normal));
     return vec4(color * in.air.a + in.air.rgb, alpha);

@@ -63,16 +63,29 @@ fn middle_m(compiled: &CompiledScene, cell: usize) -> DVec2 {
 /// Marks the cells whose floor is that of a thing with a cap.
 fn mark_things(compiled: &CompiledScene, cells: &mut [DrawnCell]) {
     for (solid, footprint) in bearers(compiled) {
-        let reach_m = footprint.half_m.length();
-        for (number, cell) in cells.iter_mut().enumerate() {
+        for number in cells_about(compiled, footprint.center_m, footprint.half_m.length()) {
             let at = middle_m(compiled, number);
-            if at.distance(footprint.center_m) > reach_m || cell.is_water != 0 {
-                continue;
-            }
+            let cell = &mut cells[number];
             let is_floor = |top_m: f64| (top_m - f64::from(cell.floor_m)).abs() < SAME_M;
-            if cell.ground_m < cell.floor_m && solid.top_m(at.x, at.y).is_some_and(is_floor) {
+            let is_dry = cell.is_water == 0 && cell.ground_m < cell.floor_m;
+            if is_dry && solid.top_m(at.x, at.y).is_some_and(is_floor) {
                 cell.has_cap = 1;
             }
         }
     }
+}
+
+/// Cells whose middles lie in a square about a place.
+fn cells_about(compiled: &CompiledScene, about_m: DVec2, reach_m: f64) -> impl Iterator<Item = usize> {
+    let snow = &compiled.block().snow;
+    let span = |about_m: f64, first: u32, count: u32| {
+        let number = |at_m: f64| at_m * f64::from(SNOW_CELLS_PER_M) - f64::from(first.cast_signed()) - 0.5;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the grid")]
+        let limit = |number: f64| number.ceil().clamp(0.0, f64::from(count)) as usize;
+        limit(number(about_m - reach_m))..limit(number(about_m + reach_m))
+    };
+    let columns = span(about_m.x, snow.first_column, snow.columns);
+    let width = snow.columns as usize;
+    span(about_m.y, snow.first_line, snow.lines)
+        .flat_map(move |line| columns.clone().map(move |column| line * width + column))
 }

@@ -189,7 +189,8 @@ fn left_over_snow(left: f32, depth_m: f32, lee_m: f32) -> f32 {
     if (lee_m <= 0.0) {
         return left;
     }
-    return 1.0 - (1.0 - left) * max(1.0 - depth_m * reciprocal(lee_m), 0.0);
+    let filled = min(depth_m * reciprocal(lee_m), 1.0) * min(lee_m * (1.0 / FULL_LEE_M), 1.0);
+    return 1.0 - (1.0 - left) * (1.0 - filled);
 }
 
 fn snow_drift(cell: SnowCell, rise_m: f32, left: f32, toward: f32) -> SnowCell {

@@ -66,6 +66,8 @@ crate::shared_constants! {
     pub const FLOOR_ON_WATER: u32 = 0xffff;
     /// Unit in m of the depth that fills a lee, in the upper half.
     pub const FLOOR_LEE_M: f32 = 1.0 / 256.0;
+    /// Depth in m of a lee from which on it is one in full: shallower ones count for less, so that the wind does not jump where one begins.
+    pub const FULL_LEE_M: f32 = 0.05;
     /// Way to a neighbour that touches at a corner over that to another.
     pub const ROOT_TWO: f32 = std::f32::consts::SQRT_2;
     /// Turn in which the last line meets the first.
@@ -335,7 +337,8 @@ pub fn left_over_snow(left: f32, depth_m: f32, lee_m: f32) -> f32 {
     if lee_m <= 0.0 {
         return left;
     }
-    1.0 - (1.0 - left) * (1.0 - depth_m * reciprocal(lee_m)).max(0.0)
+    let filled = (depth_m * reciprocal(lee_m)).min(1.0) * (lee_m * (1.0 / FULL_LEE_M)).min(1.0);
+    1.0 - (1.0 - left) * (1.0 - filled)
 }
 
 /// Snow that the wind takes from a cell over an edge to one whose surface is so many metres higher. `left` is the share of the wind that shelter
