@@ -2,52 +2,113 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sums over leaves in cells of the air. They are clear between steps, and no part of the state.
 
+use std::hint::black_box;
 use std::marker::PhantomData;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use bytemuck::Pod;
-use windfall_core::device::leaf::burn::{BURN_WORDS, BurnSums};
-use windfall_core::device::leaf::collide::{COLLISION_WORDS, CollisionSums};
+use windfall_core::device::leaf::burn::BurnSums;
+use windfall_core::device::leaf::collide::CollisionSums;
 
 /// Cells of the air in which leaves collide with each other.
-pub(crate) type CollisionCells = CellSums<CollisionSums, { COLLISION_WORDS as usize }>;
+pub(crate) type CollisionCells = CellSums<CollisionSums, 6>;
 /// Cells of the air that the heat of burning leaves goes to.
-pub(crate) type HeatCells = CellSums<BurnSums, { BURN_WORDS as usize }>;
+pub(crate) type HeatCells = CellSums<BurnSums, 2>;
 
-/// A table of cells with sums of a kind `S`, `WORDS` integers of which the first counts leaves.
+/// Sums as pairs of words, the second in the upper half, to be added at once. The first of the first pair counts leaves. A sum of the first words does
+/// not reach 2^32, or the sums are of no use.
+pub(crate) trait WordPairs<const PAIRS: usize>: Copy {
+    /// The pairs of sums.
+    fn pairs(&self) -> [u64; PAIRS];
+    /// The sums of pairs.
+    fn of_pairs(pairs: [u64; PAIRS]) -> Self;
+}
+
+/// A pair of words.
+fn pair(low: u32, high: u32) -> u64 {
+    u64::from(low) | u64::from(high) << 32
+}
+
+/// The words of a pair.
+#[expect(clippy::cast_possible_truncation, reason = "either half")]
+fn words(pair: u64) -> [u32; 2] {
+    [pair as u32, (pair >> 32) as u32]
+}
+
+/// Of up to [`MOST_COLLIDING`](windfall_core::device::leaf::collide::MOST_COLLIDING) leaves, sums that are never negative stay within 31 bits.
+impl WordPairs<6> for CollisionSums {
+    fn pairs(&self) -> [u64; 6] {
+        let [x, y, z] = [0, 1, 2].map(|axis| pair(self.place[axis], self.momentum[axis]));
+        [pair(self.count, self.key), pair(self.weight, self.area), pair(self.energy, self.virial), x, y, z]
+    }
+
+    fn of_pairs(pairs: [u64; 6]) -> Self {
+        let [[count, key], [weight, area], [energy, virial], x, y, z] = pairs.map(words);
+        let (place, momentum) = ([x[0], y[0], z[0]], [x[1], y[1], z[1]]);
+        Self { count, key, weight, area, momentum, energy, place, virial }
+    }
+}
+
+impl WordPairs<2> for BurnSums {
+    fn pairs(&self) -> [u64; 2] {
+        [pair(self.count, self.key), pair(0, self.power)]
+    }
+
+    fn of_pairs(pairs: [u64; 2]) -> Self {
+        let [[count, key], [unused, power]] = pairs.map(words);
+        Self { count, key, power, unused }
+    }
+}
+
+/// Sums of a cell, in a cache line of its own.
 #[derive(Debug)]
-pub(crate) struct CellSums<S, const WORDS: usize> {
-    words: Vec<AtomicU32>,
+#[repr(align(64))]
+struct Cell<const PAIRS: usize>([AtomicU64; PAIRS]);
+
+impl<const PAIRS: usize> Default for Cell<PAIRS> {
+    fn default() -> Self {
+        Self([const { AtomicU64::new(0) }; PAIRS])
+    }
+}
+
+/// A table of cells with sums of a kind `S`.
+#[derive(Debug)]
+pub(crate) struct CellSums<S, const PAIRS: usize> {
+    cells: Vec<Cell<PAIRS>>,
     /// Cells that are not clear.
     touched: Mutex<Vec<u32>>,
     sums: PhantomData<S>,
 }
 
-impl<S, const WORDS: usize> Default for CellSums<S, WORDS> {
+impl<S, const PAIRS: usize> Default for CellSums<S, PAIRS> {
     fn default() -> Self {
-        Self { words: Vec::new(), touched: Mutex::default(), sums: PhantomData }
+        Self { cells: Vec::new(), touched: Mutex::default(), sums: PhantomData }
     }
 }
 
-impl<S: Pod, const WORDS: usize> CellSums<S, WORDS> {
+impl<S: WordPairs<PAIRS>, const PAIRS: usize> CellSums<S, PAIRS> {
     /// Makes room for so many cells, unless there is.
     pub(crate) fn make(&mut self, cells: usize) {
-        self.words.resize_with(WORDS * cells, AtomicU32::default);
+        self.cells.resize_with(cells, Cell::default);
     }
 
-    fn words_of(&self, index: u32) -> &[AtomicU32] {
-        &self.words[index as usize * WORDS..][..WORDS]
+    fn pairs_of(&self, index: u32) -> &[AtomicU64; PAIRS] {
+        &self.cells[index as usize].0
+    }
+
+    /// Reads cells that are about to be needed, so that memory is waited for once and not for each.
+    pub(crate) fn fetch(&self, cells: impl Iterator<Item = u32>) {
+        let read = cells.map(|index| self.pairs_of(index)[0].load(Ordering::Relaxed));
+        black_box(read.fold(0, |all, pair| all | pair));
     }
 
     /// Adds to a cell. Returns true if it was clear.
     pub(crate) fn add(&self, index: u32, sums: &S) -> bool {
-        let more: [u32; WORDS] = bytemuck::cast(*sums);
-        let mut before = more.into_iter().zip(self.words_of(index)).map(|(more, word)| {
+        let mut before = sums.pairs().into_iter().zip(self.pairs_of(index)).map(|(more, pair)| {
             // Integers: the order in which threads add them is of no matter.
-            word.fetch_add(more, Ordering::Relaxed)
+            pair.fetch_add(more, Ordering::Relaxed)
         });
-        let count = before.next();
+        let count = before.next().map(|pair| words(pair)[0]);
         before.for_each(drop);
         count == Some(0)
     }
@@ -59,17 +120,17 @@ impl<S: Pod, const WORDS: usize> CellSums<S, WORDS> {
 
     /// Sums of a cell.
     pub(crate) fn sums(&self, index: u32) -> S {
-        let mut sums = [0; WORDS];
-        for (sum, word) in sums.iter_mut().zip(self.words_of(index)) {
-            *sum = word.load(Ordering::Relaxed);
+        let mut pairs = [0; PAIRS];
+        for (sum, pair) in pairs.iter_mut().zip(self.pairs_of(index)) {
+            *sum = pair.load(Ordering::Relaxed);
         }
-        bytemuck::cast(sums)
+        S::of_pairs(pairs)
     }
 
     /// Clears those that have been noted.
     pub(crate) fn clear(&self) {
         for index in self.touched.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
-            self.words_of(index).iter().for_each(|word| word.store(0, Ordering::Relaxed));
+            self.pairs_of(index).iter().for_each(|pair| pair.store(0, Ordering::Relaxed));
         }
     }
 }

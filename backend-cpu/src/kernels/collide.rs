@@ -9,6 +9,7 @@ use windfall_core::device::leaf::collide::{collision_cell, leaf_collide};
 use windfall_core::device::leaf::record::flies;
 use windfall_core::leaf::LeavesMut;
 
+use super::gather_collisions::BATCH;
 use crate::cell_sums::CollisionCells;
 use crate::quiet::{QuietUnit, stirring_slots};
 
@@ -19,11 +20,20 @@ pub(crate) fn collide(
     quiet: &[QuietUnit],
     cells: &CollisionCells,
 ) {
-    for slot in stirring_slots(quiet, cx.step.index, leaves.len()) {
-        let place = leaves.place[slot];
-        if flies(place.bits) {
-            let cell = collision_cell(cx, place.position.into());
-            leaf_collide(cx, &mut leaves.row_mut(slot), &cell, &cells.sums(cell.index));
+    let mut slots = stirring_slots(quiet, cx.step.index, leaves.len());
+    let mut batch = Vec::with_capacity(BATCH);
+    loop {
+        batch.clear();
+        let flying = slots.by_ref().filter(|&slot| flies(leaves.place[slot].bits));
+        batch.extend(
+            flying.map(|slot| (slot, collision_cell(cx, leaves.place[slot].position.into()))).take(BATCH),
+        );
+        if batch.is_empty() {
+            break;
+        }
+        cells.fetch(batch.iter().map(|(_, cell)| cell.index));
+        for (slot, cell) in &batch {
+            leaf_collide(cx, &mut leaves.row_mut(*slot), cell, &cells.sums(cell.index));
         }
     }
 }

@@ -13,6 +13,9 @@ use windfall_core::leaf::LeavesMut;
 use crate::cell_sums::CollisionCells;
 use crate::quiet::{QuietUnit, stirring_slots};
 
+/// Bodies whose cells are read at a time.
+pub(super) const BATCH: usize = 16;
+
 /// Adds the bodies of a chunk.
 pub(crate) fn gather_collisions(
     cx: &Context<'_>,
@@ -21,16 +24,24 @@ pub(crate) fn gather_collisions(
     cells: &CollisionCells,
 ) {
     let mut touched = Vec::new();
-    for slot in stirring_slots(quiet, cx.step.index, leaves.len()) {
+    let mut flying = stirring_slots(quiet, cx.step.index, leaves.len()).filter_map(|slot| {
         let place = leaves.place[slot];
-        if flies(place.bits) {
+        flies(place.bits).then(|| {
             let cell = collision_cell(cx, place.position.into());
             let velocity = Vec3::from(leaves.drift[slot].velocity);
-            let sums = own_sums(cx, &cell, place.bits, leaves.schedule[slot].size, velocity);
-            if cells.add(cell.index, &sums) {
-                touched.push(cell.index);
-            }
+            (cell.index, own_sums(cx, &cell, place.bits, leaves.schedule[slot].size, velocity))
+        })
+    });
+    let mut batch = Vec::with_capacity(BATCH);
+    loop {
+        batch.clear();
+        batch.extend(flying.by_ref().take(BATCH));
+        if batch.is_empty() {
+            break;
         }
+        cells.fetch(batch.iter().map(|(index, _)| *index));
+        let clear = batch.iter().filter(|(index, sums)| cells.add(*index, sums));
+        touched.extend(clear.map(|(index, _)| *index));
     }
     cells.list(&touched);
 }

@@ -199,8 +199,9 @@ impl ShelterGrid {
         for (number, node) in lacks.iter_mut().enumerate() {
             let (x, z) = (number % width, number / width);
             let is_edge = x == 0 || z == 0 || x == self.cells[0] || z == self.cells[1];
-            for level in if is_edge { 0 } else { LEVELS - 1 }..LEVELS {
-                node[level] = lack_at(self.node_m(x, z), level as f64 * self.layer_m);
+            let first = if is_edge { 0 } else { LEVELS - 1 };
+            for (level, lack) in node.iter_mut().enumerate().skip(first) {
+                *lack = lack_at(self.node_m(x, z), level as f64 * self.layer_m);
             }
         }
     }

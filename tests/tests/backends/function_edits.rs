@@ -67,7 +67,7 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 129] = [
     ("wind/shelter", "word >> 16u", "word >> 15u", "wind_shelter"),
     ("wind/shelter", "kw * shelter.cells_z", "kw * shelter.cells_x", "wind_shelter"),
     ("wind/shelter", "fine.first_row - scene.shelter.first_row", "fine.first_row", "wind_shelter"),
-    ("wind/shelter", ">= SHELTER_LAYERS", ">= SHELTER_LAYERS - 1.0", "wind_shelter"),
+    ("wind/shelter", ">= SHELTER_LAYERS", "< SHELTER_LAYERS", "wind_shelter"),
     ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
     ("terrain/ground", "corners.w - corners.z)", "corners.z - corners.w)", "ground_relief"),
     ("terrain/ground", "<< shift", "<< (shift - 1u)", "ground_relief"),
