@@ -7,13 +7,18 @@ use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use windfall_core::device::leaf::burn::BurnSums;
-use windfall_core::device::leaf::collide::CollisionSums;
+use windfall_core::device::leaf::burn::{BURN_WORDS, BurnSums};
+use windfall_core::device::leaf::collide::{COLLISION_WORDS, CollisionSums};
+
+/// Pairs of words of the sums of leaves that collide.
+const COLLISION_PAIRS: usize = COLLISION_WORDS as usize / 2;
+/// Pairs of words of the sums of heat.
+const BURN_PAIRS: usize = BURN_WORDS as usize / 2;
 
 /// Cells of the air in which leaves collide with each other.
-pub(crate) type CollisionCells = CellSums<CollisionSums, 6>;
+pub(crate) type CollisionCells = CellSums<CollisionSums, COLLISION_PAIRS>;
 /// Cells of the air that the heat of burning leaves goes to.
-pub(crate) type HeatCells = CellSums<BurnSums, 2>;
+pub(crate) type HeatCells = CellSums<BurnSums, BURN_PAIRS>;
 
 /// Sums as pairs of words, the second in the upper half, to be added at once. The first of the first pair counts leaves. A sum of the first words does
 /// not reach 2^32, or the sums are of no use.
@@ -36,25 +41,25 @@ fn words(pair: u64) -> [u32; 2] {
 }
 
 /// Of up to [`MOST_COLLIDING`](windfall_core::device::leaf::collide::MOST_COLLIDING) leaves, sums that are never negative stay within 31 bits.
-impl WordPairs<6> for CollisionSums {
-    fn pairs(&self) -> [u64; 6] {
+impl WordPairs<COLLISION_PAIRS> for CollisionSums {
+    fn pairs(&self) -> [u64; COLLISION_PAIRS] {
         let [x, y, z] = [0, 1, 2].map(|axis| pair(self.place[axis], self.momentum[axis]));
         [pair(self.count, self.key), pair(self.weight, self.area), pair(self.energy, self.virial), x, y, z]
     }
 
-    fn of_pairs(pairs: [u64; 6]) -> Self {
+    fn of_pairs(pairs: [u64; COLLISION_PAIRS]) -> Self {
         let [[count, key], [weight, area], [energy, virial], x, y, z] = pairs.map(words);
         let (place, momentum) = ([x[0], y[0], z[0]], [x[1], y[1], z[1]]);
         Self { count, key, weight, area, momentum, energy, place, virial }
     }
 }
 
-impl WordPairs<2> for BurnSums {
-    fn pairs(&self) -> [u64; 2] {
+impl WordPairs<BURN_PAIRS> for BurnSums {
+    fn pairs(&self) -> [u64; BURN_PAIRS] {
         [pair(self.count, self.key), pair(0, self.power)]
     }
 
-    fn of_pairs(pairs: [u64; 2]) -> Self {
+    fn of_pairs(pairs: [u64; BURN_PAIRS]) -> Self {
         let [[count, key], [unused, power]] = pairs.map(words);
         Self { count, key, power, unused }
     }

@@ -32,7 +32,7 @@ def test_the_notebook_comes_to_what_it_shows(tmp_path):
             cell.outputs, cell.execution_count = [], None
     client = nbclient.NotebookClient(run, timeout=600, resources={"metadata": {"path": str(tmp_path)}})
     client.execute()
-    assert len(outputs(run, "image/png")) == 3, "the park and two plots"
+    assert len(outputs(run, "image/png")) == 3, "the storm and two plots"
     assert len(outputs(shown, "image/png")) == 3, "they are kept with it"
     assert printed(run) == printed(shown)
     hashes = outputs(run, "text/plain")[-1]

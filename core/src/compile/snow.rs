@@ -348,7 +348,8 @@ pub(super) fn lying_step(
     }
     step.snow.drift_units *= rounds / exchange as f32;
     let row = block.wind.first_gust_row + (round.wrapping_mul(LYING_GUST_ROWS) & (GUST_ROWS - 1));
-    step.snow.drift_m_s = snow_friction(scene, block, f32::from_bits(tables[row as usize].0[0]));
+    let Uint4([gust, ..]) = tables[row as usize];
+    step.snow.drift_m_s = snow_friction(scene, block, f32::from_bits(gust));
     step
 }
 
