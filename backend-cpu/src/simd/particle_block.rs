@@ -5,10 +5,10 @@
 use bytemuck::{must_cast_mut, must_cast_ref};
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
-use windfall_core::arith::lane::{Mask, Word};
+use windfall_core::arith::lane::{Mask, Real, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, rows_of_bits, store_block};
 use windfall_core::blocks::PopulationBlock;
-use windfall_core::device::particle::fly::{ParticleFlight, particle_free_step};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_coasts, particle_free_step};
 use windfall_core::device::particle::local_space::{ParticleFrame, carried_flight, in_frame};
 use windfall_core::device::particle::record::{
     PARTICLE_ALIVE, PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, particle_state,
@@ -21,6 +21,9 @@ use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleRows, Parti
 use super::branch_block::{Column, vector_and_fourth};
 use super::leaf_block::select_four;
 
+/// Most standard deviations that a normal draw is off its mean: the sum of four 16-bit numbers ends at the root of 12.
+const MOST_DEVIATIONS: f32 = 3.5;
+
 /// Slots of one population that follow one another, none of them born in the step.
 pub(crate) struct ParticleBlock<'a> {
     /// Slot of the first of them.
@@ -30,6 +33,17 @@ pub(crate) struct ParticleBlock<'a> {
     pub(crate) traits: &'a [ParticleTraits; BLOCK],
     /// Accelerations by others of the population; `None` where particles do not attract one another.
     pub(crate) pulls: Option<&'a Column>,
+}
+
+/// Steps that every particle of a population lives at least, as births draw them.
+#[inline(always)]
+fn least_life(population: &PopulationBlock) -> u32 {
+    let life = population.life_steps;
+    if life.mean <= 0.0 {
+        return u32::MAX;
+    }
+    let narrowest = (life.mean - life.half_width) - MOST_DEVIATIONS * life.deviation;
+    (narrowest + life.cubic_width.min(0.0) - 1.0).max(0.0).to_whole()
 }
 
 /// Frames of the parents that the particles of a block go along with.
@@ -127,16 +141,27 @@ impl ParticleBlock<'_> {
         let motion: &mut Column = must_cast_mut(self.motion);
         let places: [P; 4] = load_block(simd, place, part);
         let motions: [P; 4] = load_block(simd, motion, part);
-        let [_, life_size, air_a, air_b]: [P; 4] = load_block(simd, must_cast_ref(self.traits), part);
         let (position, bits) = vector_and_fourth(places);
         let (velocity, birth) = vector_and_fourth(motions);
         let flags = bits.to_bits();
         let state = particle_state(flags);
         let unmarked = flags & !PARTICLE_MARKS;
-        let is_over = life_is_over(cx, birth.to_bits(), life_size.to_bits());
+        let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
+        let coasts = particle_coasts(cx, population, rows.plus(rows.all(self.slot)));
+        let all_coast = !(!coasts).any();
+        let is_alive = state.equals(PARTICLE_ALIVE);
+        let age = state.all(cx.step.index).minus(birth.to_bits());
+        let mut is_over = age.less_than(state.all(0));
+        let mut air = [birth.all(0.0); 2];
+        // What goes straight on and cannot be too old moves without its traits: a fifth fewer bytes.
+        if !all_coast || (is_alive & !age.less_than(state.all(least_life(population)))).any() {
+            let [_, life_size, air_a, air_b]: [P; 4] = load_block(simd, must_cast_ref(self.traits), part);
+            is_over = life_is_over(cx, birth.to_bits(), life_size.to_bits());
+            air = [air_a, air_b];
+        }
         let is_idle = is_unborn(flags);
         let rests = state.equals(PARTICLE_RESTING) & !is_over;
-        let flies = state.equals(PARTICLE_ALIVE) & !is_over;
+        let flies = is_alive & !is_over;
         if !flies.any() {
             if (!(flags & PARTICLE_MARKS).equals(0)).any() {
                 let [x, y, z, _] = places;
@@ -146,19 +171,14 @@ impl ParticleBlock<'_> {
         }
         let mutual = match self.pulls {
             Some(pulls) => vector_and_fourth(load_block::<P>(simd, pulls, part)).0,
-            None => Vec3::<f32>::ZERO.spread(air_a),
+            None => Vec3::<f32>::ZERO.spread(birth),
         };
-        let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
-        let slots = rows.plus(rows.all(self.slot));
         let start = ParticleFlight { position, velocity };
         let end = match frames.map(|frames| frames.part::<P>(simd, part)) {
-            None => particle_free_step(cx, population, slots, start, [air_a, air_b], mutual),
+            None => particle_free_step(cx, population, coasts, start, air, mutual),
             Some(frame) => {
                 let inside = in_frame(frame, start);
-                carried_flight(
-                    frame,
-                    particle_free_step(cx, population, slots, inside, [air_a, air_b], mutual),
-                )
+                carried_flight(frame, particle_free_step(cx, population, coasts, inside, air, mutual))
             }
         };
         let ends =
@@ -174,7 +194,9 @@ impl ParticleBlock<'_> {
             new_motions = select_four(moved, new_motions, motions);
         }
         store_block(place, part, new_places);
-        store_block(motion, part, new_motions);
+        if !all_coast {
+            store_block(motion, part, new_motions);
+        }
         [P::bits_of(!(moved | is_idle | rests)), P::bits_of(rests)]
     }
 }

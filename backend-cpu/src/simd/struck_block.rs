@@ -12,7 +12,7 @@ use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, rows_of
 use windfall_core::arith::vector::{vec3_dot, vec3_select};
 use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::flight::strike::{MOST_STRIKES, STRIKE_GAP_M};
-use windfall_core::device::particle::fly::{ParticleFlight, particle_free_step};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_coasts, particle_free_step};
 use windfall_core::device::particle::record::{
     MEETS_DIE, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_MARKS,
     PARTICLE_RESTING, particle_state, with_more_hits, with_particle_state,
@@ -105,7 +105,8 @@ impl StruckBlock {
         let start = ParticleFlight { position, velocity };
         let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
         let slots = rows.look_up_word(&self.slot);
-        let end = particle_free_step(cx, population, slots, start, [air_a, air_b], mutual);
+        let coasts = particle_coasts(cx, population, slots);
+        let end = particle_free_step(cx, population, coasts, start, [air_a, air_b], mutual);
         let is_struck = moves & may_be_struck(cx, population, position, end.position);
         let contact = ground_contact(cx, population, start, end, is_struck);
         let GroundContact { flight, hits, is_held, dies, is_left } = contact;

@@ -10,7 +10,9 @@ use windfall_core::device::particle::birth::{
     birth_number, cap_direction, foot_point, shape_point, trait_word,
 };
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
-use windfall_core::device::particle::fly::{ParticleFlight, particle_fly, particle_free_step};
+use windfall_core::device::particle::fly::{
+    ParticleFlight, interval_share, particle_coasts, particle_fly, particle_free_step,
+};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
 use windfall_core::device::particle::history::{history_counts, history_is_due, history_row, history_sample};
 use windfall_core::device::particle::local_space::{
@@ -263,13 +265,21 @@ functions! {
         flight(end)
     };
 
+    interval_share in "particle/fly" (SHARE) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(interval_share(in_float(0u)));";
+    rust |cx, w| floats([interval_share(cx, float(w[0]))]);
+
+    particle_coasts in "particle/fly" (POPULATION, ANY) tolerance None;
+    wgsl "r.x = u32(particle_coasts(a.x, a.y));";
+    rust |cx, w| integers([u32::from(particle_coasts(cx, population(cx, w), w[1]))]);
+
     particle_free_step in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW, ANY) tolerance Some(1e-2);
-    wgsl "let end = particle_free_step(a.x, in_word(12u), ParticleFlight(in_vec3(1u), in_vec3(4u)), vec2<f32>(in_float(7u), in_float(8u)), in_vec3(9u));
+    wgsl "let end = particle_free_step(a.x, (in_word(12u) & 1u) == 1u, ParticleFlight(in_vec3(1u), in_vec3(4u)), vec2<f32>(in_float(7u), in_float(8u)), in_vec3(9u));
         out_vec3(0u, end.position); out_vec3(3u, end.velocity);";
     rust |cx, w| {
         let start = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
         let (air, mutual) = ([float(w[7]), float(w[8])], vector(w, 9));
-        flight(particle_free_step(cx, population(cx, w), w[12], start, air, mutual))
+        flight(particle_free_step(cx, population(cx, w), w[12] & 1 == 1, start, air, mutual))
     };
 
     ground_strike in "particle/strike" (PLACE, FLOW) tolerance Some(1e-2);

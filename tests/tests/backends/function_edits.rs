@@ -3,7 +3,7 @@
 //! Changes of one constant or operator of a device function that must be noticed.
 
 /// Module, a line of it, the line changed, and a function of the table that shows it.
-pub(crate) const EDITS: [(&str, &str, &str, &str); 129] = [
+pub(crate) const EDITS: [(&str, &str, &str, &str); 131] = [
     ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
     ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
     ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
@@ -17,7 +17,19 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 129] = [
         "ground_relief",
     ),
     ("particle/fly", "air.y * lag", "air.y * way", "particle_fly"),
-    ("particle/fly", "step_block.index) & 1u) == 1u", "step_block.index) & 1u) == 0u", "particle_free_step"),
+    ("particle/fly", "share + share * kept", "share + share", "interval_share"),
+    (
+        "particle/fly",
+        "(slot >> AIR_UNIT_SHIFT) + step_block.index",
+        "slot + step_block.index",
+        "particle_coasts",
+    ),
+    (
+        "particle/fly",
+        "start.velocity * scene.dt_s, start.velocity",
+        "start.velocity, start.velocity",
+        "particle_free_step",
+    ),
     ("particle/birth", "among < step_block.births", "among + 1u < step_block.births", "birth_number"),
     ("particle/birth", "max(max(a, b), c)", "max(a, b)", "shape_point"),
     ("particle/draw", "131070", "131072", "spread_draw"),

@@ -105,6 +105,18 @@ fn obstructed() -> World {
     world
 }
 
+/// Particles in a wind without small eddies, in which leaves and flakes sample the air once in several steps.
+fn windswept() -> World {
+    let mut scene = flying_scene(5, 300, 6.0, 1.0 / 60.0);
+    scene.wind.turbulence.cell_m = 10.0;
+    scene.wind.vortices.clear();
+    scene.wind.plumes = vec![Plume { base_radius_m: 15.0, ..plume() }];
+    add_particles(&mut scene);
+    let world = World::build(&scene).expect("valid");
+    assert_eq!(world.compiled.block().wind.interval_steps, 4, "steps of an interval");
+    world
+}
+
 /// Reason for which a case's results do not fit, if they do not.
 fn mismatch(
     function: &Function,
@@ -219,7 +231,7 @@ fn is_comparable(contract: Contract, function: &Function, world: &World) -> bool
 
 #[test]
 fn functions_agree_on_every_adapter() {
-    let worlds = [world(None), world(Some(bed())), obstructed()];
+    let worlds = [world(None), world(Some(bed())), obstructed(), windswept()];
     let mut failures = Vec::new();
     for (gpu, contract) in adapter::contracts() {
         for function in functions::all() {
@@ -235,7 +247,7 @@ fn functions_agree_on_every_adapter() {
 /// Mutation test: one constant or operator changed in one twin is noticed by the function that uses it.
 #[test]
 fn a_changed_twin_is_noticed() {
-    let worlds = [world(None), world(Some(bed())), obstructed()];
+    let worlds = [world(None), world(Some(bed())), obstructed(), windswept()];
     for (gpu, contract) in adapter::contracts() {
         two_at_a_time(&gpu, EDITS.into_iter(), |gpu, (module, old, new, name)| {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");

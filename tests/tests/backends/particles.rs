@@ -3,8 +3,8 @@
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
 use windfall_core::scene::{
-    Air, MeanSpeed, Meets, ParticleEvent, ParticleRelease, Particles, Release, Spread, Tree, TreeForm,
-    TreeKind, TreePreset,
+    Air, MeanSpeed, Meets, ObjectMotion, ParticleEvent, ParticleRelease, Particles, Release, Spread, Tree,
+    TreeForm, TreeKind, TreePreset,
 };
 use windfall_core::{SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
@@ -119,6 +119,35 @@ fn every_instruction_set_and_number_of_threads_moves_particles_alike() {
         let apart = difference(&stepped, &plain);
         assert!(apart.is_none(), "the plain loop: {apart:?}");
         assert_eq!(stepped.state_hash(), plain.state_hash(), "clock and births as well");
+    }
+}
+
+/// Flakes that go straight on between two samples of the air are moved apart from others, with the same bits.
+#[test]
+fn flakes_that_coast_are_equal_to_the_bit() {
+    let mut scene = particle_scene(37, 6.0, DT_S);
+    // Without small eddies, the air is sampled once in four steps.
+    scene.wind.turbulence.cell_m = 10.0;
+    scene.wind.vortices.clear();
+    scene.walkers.clear();
+    scene.objects.iter_mut().for_each(|object| object.motion = ObjectMotion::Still);
+    let world = World::build(&scene).expect("valid without small eddies");
+    assert_eq!(world.compiled.block().wind.interval_steps, 4, "steps of an interval");
+    let plain = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 150);
+    let snow = &plain.particle_stats()[1];
+    assert!(snow.born > 1000 && snow.died > 500, "flakes fall: {snow:?}");
+    for simd in Simd::available() {
+        let options = CpuOptions { simd: Some(simd), threads: Some(3) };
+        let apart = difference(&on_cpu(&world, options, 150), &plain);
+        assert!(apart.is_none(), "{simd:?}: {apart:?}");
+    }
+    let mut stepped = world.clone();
+    oracle::step(&mut stepped, 150);
+    let apart = difference(&stepped, &plain);
+    assert!(apart.is_none(), "the plain loop: {apart:?}");
+    for gpu in exact_adapters() {
+        let apart = difference(&plain, &on_gpu(&gpu, &world, &exact(None), &[150]));
+        assert!(apart.is_none(), "{}: {apart:?}", gpu.info().name);
     }
 }
 

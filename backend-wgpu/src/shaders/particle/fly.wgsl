@@ -23,6 +23,18 @@ fn whole_velocity(velocity: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(whole_speed(velocity.x), whole_speed(velocity.y), whole_speed(velocity.z));
 }
 
+fn interval_share(lost: f32) -> f32 {
+    var share = 1.0;
+    var kept = share - lost;
+    var steps = scene.wind.interval_steps;
+    while (steps > 1u) {
+        share = share + share * kept;
+        kept = kept * kept;
+        steps = steps / 2u;
+    }
+    return share;
+}
+
 fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
     let position = start.position;
     let velocity = start.velocity;
@@ -44,7 +56,13 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
         }
         var wind = vec3<f32>(0.0, 0.0, 0.0);
         if (kind != AIR_VACUUM) {
-            wind = wind_at(position);
+            var moment = MOMENT_NOW;
+            var meeting = position;
+            if ((flags & POPULATION_COASTS) != 0u) {
+                moment = MOMENT_MIDDLE;
+                meeting = position + velocity * scene.wind.half_interval_s;
+            }
+            wind = wind_at_moment(moment, meeting);
         }
         let is_linear = kind == AIR_LINEAR || kind == AIR_STOKES;
         if (is_linear && (flags & POPULATION_TURNED) == 0u) {
@@ -54,7 +72,7 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
             end.position = position + (velocity * dt + (slip * lag + pull * (air.y * lag)));
             var change = slip * air.x + pull * way;
             if ((flags & POPULATION_COASTS) != 0u) {
-                change = change * (2.0 - air.x);
+                change = change * interval_share(air.x);
             }
             end.velocity = velocity + change;
         } else {
@@ -74,9 +92,16 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
     return end;
 }
 
-fn particle_free_step(number: u32, slot: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
-    let may_coast = (scene.populations[number].flags & POPULATION_COASTS) != 0u;
-    if (may_coast && (((slot >> AIR_UNIT_SHIFT) + step_block.index) & 1u) == 1u) {
+fn particle_coasts(number: u32, slot: u32) -> bool {
+    if ((scene.populations[number].flags & POPULATION_COASTS) == 0u) {
+        return false;
+    }
+    let turn = (slot >> AIR_UNIT_SHIFT) + step_block.index;
+    return (turn & (scene.wind.interval_steps - 1u)) != 0u;
+}
+
+fn particle_free_step(number: u32, coasts: bool, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
+    if (coasts) {
         return ParticleFlight(start.position + start.velocity * scene.dt_s, start.velocity);
     }
     return particle_fly(number, start, air, mutual);

@@ -165,7 +165,9 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
         frame = slot_frame(particle, slot, particle_motions[particle].birth, time);
         inside = in_frame(frame, start);
     }
-    var end = particle_free_step(number, slot, inside, particle_traits[particle].air, felt);
+    // The newborn meets the air at once.
+    let coasts = !is_new && particle_coasts(number, slot);
+    var end = particle_free_step(number, coasts, inside, particle_traits[particle].air, felt);
     if (rest < 1.0) {
         end.position = inside.position + (end.position - inside.position) * rest;
         end.velocity = inside.velocity + (end.velocity - inside.velocity) * rest;

@@ -11,10 +11,10 @@ use super::record::{
 };
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::{Vec3, vec3_select};
-use crate::blocks::{NEVER, PopulationBlock};
+use crate::blocks::{MOMENT_MIDDLE, MOMENT_NOW, NEVER, PopulationBlock};
 use crate::context::Context;
 use crate::device::leaf::air::AIR_UNIT_SHIFT;
-use crate::device::wind::sample::wind_at;
+use crate::device::wind::sample::{wind_at, wind_at_moment};
 
 /// Speed along an axis in m/s below which there is none: decaying ones would become subnormal, on which processors are slow.
 const LEAST_M_S: f32 = 1e-20;
@@ -40,9 +40,23 @@ pub fn whole_velocity<R: Real>(velocity: Vec3<R>) -> Vec3<R> {
     Vec3::new(whole_speed(velocity.x), whole_speed(velocity.y), whole_speed(velocity.z))
 }
 
+/// Change of velocity over an interval of steps in the same air, over that in a step in which the share `lost` of the speed is lost.
+#[inline(always)]
+pub fn interval_share<R: Real>(cx: &Context<'_>, lost: R) -> R {
+    let mut share = lost.all(1.0);
+    let mut kept = share - lost;
+    let mut steps = cx.scene.wind.interval_steps;
+    while steps > 1 {
+        share = share + share * kept;
+        kept = kept * kept;
+        steps /= 2;
+    }
+    share
+}
+
 /// A particle after a free step. Linear drag is exact; other places follow from the mean of both velocities. Forces act where half a
 /// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits. `mutual` is the acceleration by others of the population.
-/// The velocity of what coasts next is that after two steps.
+/// What coasts next meets, as leaves do, the air of the middle of an interval of steps, and leaves with the velocity at its end.
 #[inline(always)]
 pub fn particle_fly<R: Real>(
     cx: &Context<'_>,
@@ -69,7 +83,12 @@ pub fn particle_fly<R: Real>(
         }
         let mut wind = Vec3::<f32>::ZERO.spread(none);
         if population.air != AIR_VACUUM {
-            wind = wind_at(cx, position);
+            let (mut moment, mut meeting) = (MOMENT_NOW, position);
+            if (population.flags & POPULATION_COASTS) != 0 {
+                moment = MOMENT_MIDDLE;
+                meeting = position + velocity * position.x.all(cx.scene.wind.half_interval_s);
+            }
+            wind = wind_at_moment(cx, moment, meeting);
         }
         let is_linear = population.air == AIR_LINEAR || population.air == AIR_STOKES;
         if is_linear && (population.flags & POPULATION_TURNED) == 0 {
@@ -79,7 +98,7 @@ pub fn particle_fly<R: Real>(
             end.position = position + (velocity * dt + (slip * lag + pull * (air[1] * lag)));
             let mut change = slip * air[0] + pull * way;
             if (population.flags & POPULATION_COASTS) != 0 {
-                change = change * (air[0].all(2.0) - air[0]);
+                change = change * interval_share(cx, air[0]);
             }
             end.velocity = velocity + change;
         } else {
@@ -99,21 +118,27 @@ pub fn particle_fly<R: Real>(
     end
 }
 
-/// The particle in a slot after a free step, straight on where it coasts: those of some populations sample the air in every other step,
-/// units of slots in turns.
+/// Returns true for particles that go straight on in a step: those of some populations sample the air in one step of an interval, units of
+/// slots in turns.
+#[inline(always)]
+pub fn particle_coasts<W: Word>(cx: &Context<'_>, population: &PopulationBlock, slot: W) -> W::Mask {
+    if (population.flags & POPULATION_COASTS) == 0 {
+        return slot.equals(NEVER);
+    }
+    let turn = (slot >> AIR_UNIT_SHIFT).plus(slot.all(cx.step.index));
+    !(turn & (cx.scene.wind.interval_steps - 1)).equals(0)
+}
+
+/// A particle after a free step, straight on if it coasts.
 #[inline(always)]
 pub fn particle_free_step<R: Real>(
     cx: &Context<'_>,
     population: &PopulationBlock,
-    slot: R::Word,
+    coasts: R::Mask,
     start: ParticleFlight<R>,
     air: [R; 2],
     mutual: Vec3<R>,
 ) -> ParticleFlight<R> {
-    let mut coasts = slot.equals(NEVER);
-    if (population.flags & POPULATION_COASTS) != 0 {
-        coasts = ((slot >> AIR_UNIT_SHIFT).plus(slot.all(cx.step.index)) & 1).equals(1);
-    }
     if !coasts.any() {
         return particle_fly(cx, population, start, air, mutual);
     }

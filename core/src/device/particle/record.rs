@@ -66,7 +66,7 @@ crate::shared_constants! {
     pub const POPULATION_SNOW: u32 = 256;
     /// Flag of a population: snow that falls from branches.
     pub const POPULATION_BRANCH_SNOW: u32 = 1024;
-    /// Flag of a population: its particles sample the air in every other step, for both.
+    /// Flag of a population: its particles sample the air as leaves do, once for an interval of steps.
     pub const POPULATION_COASTS: u32 = 2048;
     /// Flag of a population: what leaves its region through a side comes in through the opposite one.
     pub const POPULATION_THROUGH: u32 = 512;

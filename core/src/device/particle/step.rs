@@ -5,7 +5,7 @@
 //! One step of one particle, in the order of deaths, births, forces, hits, places.
 
 use super::birth::{birth_number, particle_birth};
-use super::fly::{ParticleFlight, particle_free_step};
+use super::fly::{ParticleFlight, particle_coasts, particle_free_step};
 use super::local_space::{ParticleFrame, carried_flight, in_frame, parent_frame, rest_frame};
 use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
@@ -240,7 +240,9 @@ pub fn particle_step(
         frame = slot_frame(cx, population, parents, slot, particle.motion.birth, time);
         inside = in_frame(frame, start);
     }
-    let mut end = particle_free_step(cx, population, slot, inside, particle.traits.air, mutual);
+    // The newborn meets the air at once.
+    let coasts = !is_new && particle_coasts(cx, population, slot);
+    let mut end = particle_free_step(cx, population, coasts, inside, particle.traits.air, mutual);
     if rest < 1.0 {
         end.position = inside.position + (end.position - inside.position) * rest;
         end.velocity = inside.velocity + (end.velocity - inside.velocity) * rest;
