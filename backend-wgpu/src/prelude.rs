@@ -142,6 +142,7 @@ pub(crate) fn constants() -> String {
         device::motion::feature::wgsl_constants(),
         device::motion::lookup::wgsl_constants(),
         device::particle::air::wgsl_constants(),
+        device::particle::fly::wgsl_constants(),
         device::particle::birth::wgsl_constants(),
         device::particle::force::wgsl_constants(),
         device::particle::force_carrier::wgsl_constants(),

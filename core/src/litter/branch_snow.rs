@@ -85,17 +85,24 @@ impl Bed {
 
     /// Lets a flake land, on the cells or in a crown above them.
     pub fn land_flake(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32) {
-        let cell = snow_cell(&cx.scene.snow, x_m, z_m);
-        if cell == NEVER || !flake_is_caught(cx, x_m, z_m, lies_on(cx, cell).open) {
+        if !self.catch_flake(cx, x_m, z_m) {
             self.snow_mut(cx.scene).land(cx, x_m, z_m, cx.scene.snow.flake_water);
-            return;
         }
+    }
+
+    /// Lets a crown catch a flake that lands beneath it, if it does. Returns true if so.
+    pub fn catch_flake(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32) -> bool {
         let snow = &cx.scene.snow;
+        let cell = snow_cell(snow, x_m, z_m);
+        if cell == NEVER || !flake_is_caught(cx, x_m, z_m, lies_on(cx, cell).open) {
+            return false;
+        }
         let [fresh, left, _] = crown_places(cx, cell);
         let crowns = self.branch_snow_mut(cx.scene).crowns;
         for place in [fresh, left] {
             crowns[place] = crowns[place].wrapping_add(snow.flake_water);
         }
+        true
     }
 
     /// Lets the snow land that has fallen from the segment in a row as a particle; beyond the rectangle it counts at its edge.

@@ -7,7 +7,7 @@ use std::ops::Range;
 use crate::arith::lane::Word;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
-use crate::convert::word;
+use crate::convert::{len32, word};
 use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_BRANCH_SNOW, POPULATION_SNOW};
 use crate::device::solid::shape::solid_at;
 use crate::device::terrain::snow::{
@@ -113,11 +113,15 @@ impl SnowMut<'_> {
         SnowCell { water: self.water[at], depth: self.depth[at] }
     }
 
-    /// Adds the water of what lands at a place; on water it melts at once. Only on all cells.
+    /// Adds to these cells the water of what lands at a place; on water it melts at once.
     pub fn land(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32, water: u32) {
         let snow = &cx.scene.snow;
         let middle = snow_cell(snow, x_m, z_m);
-        if middle == NEVER {
+        let reach = (FLAKE_CELLS / 2) * (snow.columns + 1);
+        if middle == NEVER
+            || middle + reach < self.first
+            || middle >= self.first + reach + len32(self.water.len())
+        {
             return;
         }
         let mut left = water;
@@ -132,9 +136,12 @@ impl SnowMut<'_> {
         self.fall(cx, middle, left);
     }
 
-    /// Adds water that comes down to a cell of this number; on water it melts at once.
+    /// Adds water that comes down to a cell of this number, if it is one of these; on water it melts at once.
     pub(super) fn fall(&mut self, cx: &Context<'_>, cell: u32, water: u32) {
-        let at = (cell - self.first) as usize;
+        let Some(at) = cell.checked_sub(self.first).map(|at| at as usize) else { return };
+        if at >= self.water.len() {
+            return;
+        }
         if lies_on(cx, cell).open >= 0.0 {
             self.add(cx, at, water);
         } else {

@@ -20,7 +20,7 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 131] = [
     ("particle/fly", "share + share * kept", "share + share", "interval_share"),
     (
         "particle/fly",
-        "(slot >> AIR_UNIT_SHIFT) + step_block.index",
+        "(slot >> PARTICLE_UNIT_SHIFT) + step_block.index",
         "slot + step_block.index",
         "particle_coasts",
     ),

@@ -10,7 +10,7 @@ use windfall_core::{World, oracle};
 
 use super::snow::{flakes, mm, snowy, sum};
 
-/// Flakes sample the air in every other step. In turbulence they fall, drift and shake as particles do that sample it in every step.
+/// Flakes sample the air once in an interval of steps. In turbulence they fall, drift and shake as particles do that sample it in every step.
 #[test]
 fn flakes_fly_as_other_particles_do() {
     let mut scene = snowy(10.0, -2.0, 12.0, 6000);

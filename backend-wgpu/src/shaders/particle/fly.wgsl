@@ -96,7 +96,7 @@ fn particle_coasts(number: u32, slot: u32) -> bool {
     if ((scene.populations[number].flags & POPULATION_COASTS) == 0u) {
         return false;
     }
-    let turn = (slot >> AIR_UNIT_SHIFT) + step_block.index;
+    let turn = (slot >> PARTICLE_UNIT_SHIFT) + step_block.index;
     return (turn & (scene.wind.interval_steps - 1u)) != 0u;
 }
 

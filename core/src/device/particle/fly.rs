@@ -13,8 +13,13 @@ use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::{Vec3, vec3_select};
 use crate::blocks::{MOMENT_MIDDLE, MOMENT_NOW, NEVER, PopulationBlock};
 use crate::context::Context;
-use crate::device::leaf::air::AIR_UNIT_SHIFT;
 use crate::device::wind::sample::{wind_at, wind_at_moment};
+
+crate::shared_constants! {
+    /// Binary logarithm of the slots that sample the air in the same step. Only then is a particle's drag read: long runs of it are read as fast
+    /// as memory gives them.
+    pub const PARTICLE_UNIT_SHIFT: u32 = 10;
+}
 
 /// Speed along an axis in m/s below which there is none: decaying ones would become subnormal, on which processors are slow.
 const LEAST_M_S: f32 = 1e-20;
@@ -125,7 +130,7 @@ pub fn particle_coasts<W: Word>(cx: &Context<'_>, population: &PopulationBlock, 
     if (population.flags & POPULATION_COASTS) == 0 {
         return slot.equals(NEVER);
     }
-    let turn = (slot >> AIR_UNIT_SHIFT).plus(slot.all(cx.step.index));
+    let turn = (slot >> PARTICLE_UNIT_SHIFT).plus(slot.all(cx.step.index));
     !(turn & (cx.scene.wind.interval_steps - 1)).equals(0)
 }
 
