@@ -7,6 +7,7 @@ use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::lane::{Mask, Real, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, rows_of_bits, store_block};
+use windfall_core::arith::vector::vec3_select;
 use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::particle::fly::{ParticleFlight, particle_coasts, particle_free_step};
 use windfall_core::device::particle::local_space::{ParticleFrame, carried_flight, in_frame};
@@ -21,6 +22,8 @@ use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleRows, Parti
 use super::branch_block::{Column, vector_and_fourth};
 use super::leaf_block::select_four;
 
+/// Height in m above everything solid.
+const HIGH_ABOVE_M: f32 = 1e6;
 /// Most standard deviations that a normal draw is off its mean: the sum of four 16-bit numbers ends at the root of 12.
 const MOST_DEVIATIONS: f32 = 3.5;
 
@@ -181,8 +184,13 @@ impl ParticleBlock<'_> {
                 carried_flight(frame, particle_free_step(cx, population, coasts, inside, air, mutual))
             }
         };
-        let ends =
-            may_be_struck(cx, population, position, end.position) | is_outside(population, end.position);
+        // What does not fly is asked for high above all things, so that it makes none of the others wait.
+        let above = Vec3::new(0.0, HIGH_ABOVE_M, 0.0).spread(birth);
+        let [from, to] = [position, end.position].map(
+            #[inline(always)]
+            |place| vec3_select(flies, place, above),
+        );
+        let ends = may_be_struck(cx, population, from, to) | is_outside(population, end.position);
         let moved = flies & !ends;
         // Nothing holds what flies. Those that are left lose their marks here as they would there.
         let new_bits = P::from_bits(moved.select(unmarked & !PARTICLE_GROUNDED, unmarked));

@@ -170,7 +170,7 @@ fn ground_contact<R: Real>(
     let mut goes_on = is_struck;
     for _ in 0..MOST_STRIKES {
         if cx.scene.has_solids() {
-            let is_near = is_in_reach_of_solids(cx, from, vec3_dot(way, way));
+            let is_near = is_in_reach_of_solids(cx, from, way);
             contact.is_left = contact.is_left | (goes_on & is_near);
             goes_on = goes_on & !is_near;
         }

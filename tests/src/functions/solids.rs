@@ -13,7 +13,7 @@ use windfall_core::device::leaf::record::{SIZE_ONE, SPECIES_SHIFT, held_bits, is
 use windfall_core::device::leaf::strike::{comes_upon, is_borne, is_inside_solid, solid_footing};
 use windfall_core::device::solid::distance::solid_distance;
 use windfall_core::device::solid::near::{
-    may_meet_solids, may_meet_solids_within, near_count, near_solid, solids_cell,
+    Core, core_may_be_met, may_meet_solids, may_meet_solids_on_way, near_count, near_solid, solids_cell,
 };
 use windfall_core::device::solid::shape::{SolidAt, SolidDistance, solid_at, solid_velocity};
 
@@ -76,17 +76,25 @@ functions! {
         integers([cell, may_meet, near_count(cx, cell), near_solid(cx, cell, 0)])
     };
 
-    may_meet_solids_within in "solid/near" (PLACE, ANY) tolerance None;
+    may_meet_solids_on_way in "solid/near" (PLACE, FLOW) tolerance None;
     wgsl "if (scene.solids.count != 0u) {
-            let way_m = f32(a.w & 255u) / 64.0;
-            r.x = u32(may_meet_solids_within(in_vec3(0u), way_m * way_m));
+            r.x = u32(may_meet_solids_on_way(in_vec3(0u), in_vec3(3u) * 0.1));
         }";
     rust |cx, w| {
         if !cx.scene.has_solids() {
             return integers([0; 4]);
         }
-        let way_m = (w[3] & 255) as f32 / 64.0;
-        integers([u32::from(may_meet_solids_within(cx, vector(w, 0), way_m * way_m)), 0, 0, 0])
+        integers([u32::from(may_meet_solids_on_way(cx, vector(w, 0), vector(w, 3) * 0.1)), 0, 0, 0])
+    };
+
+    core_may_be_met in "solid/near" (PLACE, FLOW, PLACE, ANY) tolerance None;
+    wgsl "let half = in_vec3(6u) * 0.15 + vec3<f32>(0.6, 0.6, 0.6);
+        let shape = Core((in_word(9u) & 1u) != 0u, half, half.y * 0.5);
+        r.x = u32(core_may_be_met(shape, in_vec3(0u), in_vec3(3u)));";
+    rust |_cx, w| {
+        let half_m = vector(w, 6) * 0.15 + Vec3::new(0.6, 0.6, 0.6);
+        let shape = Core { is_round: w[9] & 1 != 0, half_m, rounding_m: half_m.y * 0.5 };
+        integers([u32::from(core_may_be_met(shape, vector(w, 0), vector(w, 3))), 0, 0, 0])
     };
 
     strike_solids in "flight/strike" (SPECIES, SIZE, ANY, PLACE, FLOW, POSE, SPIN) tolerance Some(1e-2);

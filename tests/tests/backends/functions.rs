@@ -201,7 +201,8 @@ fn check_in(
 
 /// Functions that rounding decides about under the looser contract (of any inertia, some are all but singular), and those that do so where there is
 /// litter.
-const STRIKES: [&str; 7] = [
+const STRIKES: [&str; 8] = [
+    "core_may_be_met",
     "ground_strike",
     "bent_share",
     "wedged_velocity",
@@ -216,7 +217,7 @@ const TOUCHES: [&str; 8] = [
     "strike_solids",
     "solid_footing",
     "solids_cell",
-    "may_meet_solids_within",
+    "may_meet_solids_on_way",
     "own_sums",
     "collisions_of",
 ];

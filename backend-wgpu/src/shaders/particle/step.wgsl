@@ -54,13 +54,12 @@ fn may_be_struck(number: u32, start: vec3<f32>, end: vec3<f32>) -> bool {
     if (scene.solids.count == 0u) {
         return meets_ground;
     }
-    let way = end - start;
-    return meets_ground || is_in_reach_of_solids(start, vec3_dot(way, way));
+    return meets_ground || is_in_reach_of_solids(start, end - start);
 }
 
-fn is_in_reach_of_solids(start: vec3<f32>, way_squared: f32) -> bool {
+fn is_in_reach_of_solids(start: vec3<f32>, way: vec3<f32>) -> bool {
     let reach_m = scene.solids.reach_m;
-    return may_meet_solids_within(start, way_squared) || reach_m * reach_m < way_squared;
+    return may_meet_solids_on_way(start, way) || reach_m * reach_m < vec3_dot(way, way);
 }
 
 fn rest_is_checked(id: u32) -> bool {

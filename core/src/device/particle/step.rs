@@ -19,7 +19,7 @@ use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::{Vec3, vec3_dot};
 use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
-use crate::device::solid::near::may_meet_solids_within;
+use crate::device::solid::near::may_meet_solids_on_way;
 use crate::device::terrain::ground::ground_met;
 use crate::device::tree::branch_fall::{fall_row, fall_start};
 use crate::particle::{ParticleMut, ParticleRows};
@@ -94,15 +94,14 @@ pub fn may_be_struck<R: Real>(
     if !cx.scene.has_solids() {
         return meets_ground;
     }
-    let way = end - start;
-    meets_ground | is_in_reach_of_solids(cx, start, vec3_dot(way, way))
+    meets_ground | is_in_reach_of_solids(cx, start, end - start)
 }
 
-/// Returns true for ways of a squared length that may lead to solid parts, or are longer than the reach of their lists.
+/// Returns true for ways that may lead into solid parts, or are longer than the reach of their lists.
 #[inline(always)]
-pub fn is_in_reach_of_solids<R: Real>(cx: &Context<'_>, start: Vec3<R>, way_squared: R) -> R::Mask {
+pub fn is_in_reach_of_solids<R: Real>(cx: &Context<'_>, start: Vec3<R>, way: Vec3<R>) -> R::Mask {
     let reach_m = cx.scene.solids.reach_m;
-    may_meet_solids_within(cx, start, way_squared) | start.x.all(reach_m * reach_m).less_than(way_squared)
+    may_meet_solids_on_way(cx, start, way) | start.x.all(reach_m * reach_m).less_than(vec3_dot(way, way))
 }
 
 /// Returns true if a particle at rest checks the wind and what holds it in a step: in one of eight, by its number.

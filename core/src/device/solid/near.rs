@@ -4,9 +4,10 @@
 //!
 //! The few of many solid parts that a leaf may meet in a step: those that move, and those listed in its cell of a grid.
 
-use super::shape::SOLID_ROWS;
+use super::shape::{SOLID_GRID, SOLID_HULL, SOLID_ROUND, SOLID_ROWS};
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::inverse_sqrt;
+use crate::arith::quaternion::{Quat, quat_rotate_back};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::context::Context;
 use crate::layout::Uint4;
@@ -48,15 +49,15 @@ pub fn may_meet_solids<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     may_meet_movers(cx, place) | !(solids_cell(cx, place) & LIST_LENGTH_MASK).equals(0)
 }
 
-/// Returns true for places from which a way of a squared length may lead into a part that moves, or into the sphere around one in the list of the
-/// cell. Only where there are any; for what has no extent.
+/// Returns true for ways from places that may lead into a part that moves, or into one in the list of the cell. Only where there are any; for
+/// what has no extent.
 #[inline(always)]
-pub fn may_meet_solids_within<R: Real>(cx: &Context<'_>, place: Vec3<R>, way_squared: R) -> R::Mask {
+pub fn may_meet_solids_on_way<R: Real>(cx: &Context<'_>, place: Vec3<R>, way: Vec3<R>) -> R::Mask {
     let mut meets = may_meet_movers(cx, place);
     let cell = solids_cell(cx, place);
     let count = cell & LIST_LENGTH_MASK;
     let first = cell >> LIST_LENGTH_BITS;
-    let squared = way_squared.max(place.x.all(TINY_SQUARED));
+    let squared = vec3_dot(way, way).max(place.x.all(TINY_SQUARED));
     let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
     let none = count.all(0);
     for entry in 0.. {
@@ -66,14 +67,73 @@ pub fn may_meet_solids_within<R: Real>(cx: &Context<'_>, place: Vec3<R>, way_squ
         }
         let listed = is_listed.select(first.plus(none.all(entry)), none);
         let number = word_from(cx, cx.scene.solids.first_list_row, listed);
-        let part = number.times(none.all(4 * SOLID_ROWS));
-        let of_part =
-            |at: u32| R::from_bits(word_from(cx, cx.scene.solids.first_row, part.plus(none.all(at))));
-        let bound = of_part(5) + reach;
-        let apart = place - Vec3::new(of_part(8), of_part(9), of_part(10));
-        meets = meets | (is_listed & vec3_dot(apart, apart).less_than(bound * bound));
+        let row = number.times(none.all(SOLID_ROWS));
+        let [rounding, bound, _, _] = part_row(cx, row.plus(none.all(1)));
+        let [x, y, z, _] = part_row(cx, row.plus(none.all(2)));
+        let apart = place - Vec3::new(R::from_bits(x), R::from_bits(y), R::from_bits(z));
+        let near = R::from_bits(bound) + reach;
+        let is_near = is_listed & vec3_dot(apart, apart).less_than(near * near);
+        if !is_near.any() {
+            continue;
+        }
+        let [flags, half_x, half_y, half_z] = part_row(cx, row);
+        let [i, j, k, w] = part_row(cx, row.plus(none.all(3)));
+        let turn = Quat { x: R::from_bits(i), y: R::from_bits(j), z: R::from_bits(k), w: R::from_bits(w) };
+        let shape = Core {
+            is_round: !(flags & SOLID_ROUND).equals(0),
+            half_m: Vec3::new(R::from_bits(half_x), R::from_bits(half_y), R::from_bits(half_z)),
+            rounding_m: R::from_bits(rounding),
+        };
+        let may_be_met = core_may_be_met(shape, quat_rotate_back(turn, apart), quat_rotate_back(turn, way));
+        let has_faces = !(flags & (SOLID_HULL | SOLID_GRID)).equals(0);
+        meets = meets | (is_near & (has_faces | may_be_met));
     }
     meets
+}
+
+/// Row of a part, from the first of all on.
+#[inline(always)]
+fn part_row<W: Word>(cx: &Context<'_>, row: W) -> [W; 4] {
+    row.look_up_words(bytemuck::cast_slice(&cx.tables[cx.scene.solids.first_row as usize..]))
+}
+
+/// Parts without faces, or one.
+#[derive(Clone, Copy)]
+pub struct Core<R: Real = f32> {
+    /// True for cylinders.
+    pub is_round: R::Mask,
+    /// Half edges in m; of a cylinder, radius, half of the height, and nothing.
+    pub half_m: Vec3<R>,
+    /// Radius in m by which it is rounded.
+    pub rounding_m: R,
+}
+
+/// Returns true for ways in the frame of a part without faces that may lead into it: such parts are convex, so they lie behind the plane through
+/// their point that is nearest to where the way begins.
+#[inline(always)]
+pub fn core_may_be_met<R: Real>(shape: Core<R>, inner: Vec3<R>, way: Vec3<R>) -> R::Mask {
+    let none = inner.x.all(0.0);
+    let one = none.all(1.0);
+    let half = shape.half_m;
+    let sign = Vec3::new(
+        inner.x.less_than(none).select_real(-one, one),
+        inner.y.less_than(none).select_real(-one, one),
+        inner.z.less_than(none).select_real(-one, one),
+    );
+    let radial_squared = (inner.x * inner.x + inner.z * inner.z).max(none.all(TINY_SQUARED));
+    let inv_radial = inverse_sqrt(radial_squared);
+    let outward = (way.x * inner.x + way.z * inner.z) * inv_radial;
+    let beyond_x = shape.is_round.select_real(radial_squared * inv_radial, inner.x * sign.x) - half.x;
+    let beyond_y = inner.y * sign.y - half.y;
+    let beyond_z = shape.is_round.select_real(-one, inner.z * sign.z - half.z);
+    let outside = Vec3::new(beyond_x.max(none), beyond_y.max(none), beyond_z.max(none));
+    let along =
+        Vec3::new(shape.is_round.select_real(outward, way.x * sign.x), way.y * sign.y, way.z * sign.z);
+    let squared = vec3_dot(outside, outside).max(none.all(TINY_SQUARED));
+    let inverse = inverse_sqrt(squared);
+    let distance = squared * inverse - shape.rounding_m;
+    let nearer = (vec3_dot(outside, along) * inverse).min(none);
+    (distance + nearer).less_than(none.all(CLEAR_OF_SOLIDS_M))
 }
 
 /// Returns true for leaves that may meet a solid part that moves in this step.
