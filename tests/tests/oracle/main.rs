@@ -48,6 +48,7 @@ mod snow_leaves;
 mod snow_print;
 mod snowfall;
 mod solids;
+mod solids_on_way;
 mod sway;
 mod table_file;
 mod tables;

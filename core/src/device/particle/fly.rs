@@ -61,7 +61,7 @@ pub fn interval_share<R: Real>(cx: &Context<'_>, lost: R) -> R {
 
 /// A particle after a free step. Linear drag is exact; other places follow from the mean of both velocities. Forces act where half a
 /// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits. `mutual` is the acceleration by others of the population.
-/// What coasts next meets, as leaves do, the air of the middle of an interval of steps, and leaves with the velocity at its end.
+/// Those that go straight on afterwards sample the air of the middle of an interval of steps, as leaves do, and take the velocity at its end.
 #[inline(always)]
 pub fn particle_fly<R: Real>(
     cx: &Context<'_>,
