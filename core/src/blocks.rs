@@ -272,7 +272,7 @@ crate::shared_struct! {
         pub count: u32,
         /// First row of the grid's cells, four to a row: place of a list's first entry, shifted, and length of the list.
         pub first_cell_row: u32,
-        /// First row of the lists, four entries to a row: before the first entry of each the height in m of the tops of its parts.
+        /// First row of the lists, four entries to a row.
         pub first_list_row: u32,
         /// Cells along x.
         pub columns: u32,

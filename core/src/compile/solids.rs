@@ -177,7 +177,7 @@ fn tabulate_grid(around: &[(Rectangle, f64)], solids: &mut SolidsBlock, tables: 
         let (columns, lines) = (cells(all[2] - all[0]), cells(all[3] - all[1]));
         if columns.max(lines) <= MOST_CELLS {
             let lists = cell_lists(around, [all[0], all[1]], cell_m, word(columns), word(lines));
-            if lists.iter().map(|list| 1 + list.len()).sum::<usize>() < MOST_ENTRIES {
+            if lists.iter().map(Vec::len).sum::<usize>() < MOST_ENTRIES {
                 (solids.columns, solids.lines) = (word(columns), word(lines));
                 break lists;
             }
@@ -189,9 +189,6 @@ fn tabulate_grid(around: &[(Rectangle, f64)], solids: &mut SolidsBlock, tables: 
     solids.highest_m = single(highest_m);
     let (mut cells, mut entries) = (Vec::new(), Vec::new());
     for list in lists {
-        let tops_m = list.iter().map(|number| around[*number as usize].1);
-        let top_m = tops_m.fold(f64::NEG_INFINITY, f64::max) - f64::from(solids.reach_m);
-        entries.push(single(top_m).to_bits());
         cells.push((len32(entries.len()) << LIST_LENGTH_BITS) | len32(list.len()));
         entries.extend(list.iter().map(|number| number + solids.mover_count));
     }

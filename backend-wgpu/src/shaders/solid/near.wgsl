@@ -32,18 +32,10 @@ fn may_meet_solids_on_way(place: vec3<f32>, way: vec3<f32>) -> bool {
         return true;
     }
     let cell = solids_cell(place);
-    let first = cell >> LIST_LENGTH_BITS;
-    if ((cell & LIST_LENGTH_MASK) == 0u) {
-        return false;
-    }
     let squared = max(vec3_dot(way, way), TINY_SQUARED);
     let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
-    let top_m = bitcast<f32>(word_from(scene.solids.first_list_row, first - 1u));
-    if (!(place.y - reach < top_m)) {
-        return false;
-    }
     for (var entry = 0u; entry < (cell & LIST_LENGTH_MASK); entry += 1u) {
-        let number = word_from(scene.solids.first_list_row, first + entry);
+        let number = word_from(scene.solids.first_list_row, (cell >> LIST_LENGTH_BITS) + entry);
         let row = number * SOLID_ROWS;
         let surface = part_row(row + 1u);
         let apart = place - bitcast<vec3<f32>>(part_row(row + 2u).xyz);

@@ -60,17 +60,13 @@ pub fn may_meet_solids_on_way<R: Real>(cx: &Context<'_>, place: Vec3<R>, way: Ve
     let squared = vec3_dot(way, way).max(place.x.all(TINY_SQUARED));
     let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
     let none = count.all(0);
-    let head = count.equals(0).select(none, first.minus(none.all(1)));
-    let top_m = R::from_bits(word_from(cx, cx.scene.solids.first_list_row, head));
-    let is_low = (place.y - reach).less_than(top_m);
     for entry in 0.. {
-        let is_listed = is_low & none.all(entry).less_than(count);
+        let is_listed = none.all(entry).less_than(count);
         if !(is_listed & !meets).any() {
             break;
         }
-        let place_in_lists = is_listed.select(first.plus(none.all(entry)), none);
-        let listed = word_from(cx, cx.scene.solids.first_list_row, place_in_lists);
-        let number = is_listed.select(listed, none);
+        let listed = is_listed.select(first.plus(none.all(entry)), none);
+        let number = word_from(cx, cx.scene.solids.first_list_row, listed);
         let row = number.times(none.all(SOLID_ROWS));
         let [rounding, bound, _, _] = part_row(cx, row.plus(none.all(1)));
         let [x, y, z, _] = part_row(cx, row.plus(none.all(2)));
