@@ -288,6 +288,18 @@ crate::shared_struct! {
         pub highest_m: f32,
         /// Distance in m from which the fastest leaf may reach a part in a step.
         pub reach_m: f32,
+        /// Lowest corner of the occupancy grid in m.
+        pub occupancy_low_m: [f32; 3],
+        /// Its cells per metre.
+        pub occupancy_cells_per_m: f32,
+        /// Its cells along x.
+        pub occupancy_columns: u32,
+        /// Its cells upwards; 0 where nothing stands still.
+        pub occupancy_layers: u32,
+        /// Its cells along z.
+        pub occupancy_lines: u32,
+        /// First row of its cells, a bit for each: upwards first, then along x.
+        pub first_occupancy_row: u32,
     }
 }
 

@@ -112,7 +112,7 @@ fn step_one(
 }
 
 /// Steps a chunk block by block; blocks with births, and those of several populations, one particle after another. What something is in
-/// the way of, or dies, comes last, side by side with others from all over the chunk.
+/// the way of, dies, or flies with few beside it comes last, side by side with others from all over the chunk.
 #[inline(always)]
 fn step_lanes<P: Pack>(
     simd: P::Simd,

@@ -24,6 +24,8 @@ use super::leaf_block::select_four;
 
 /// Height in m above everything solid.
 const HIGH_ABOVE_M: f32 = 1e6;
+/// Quarters of the lanes that fly from which on they are stepped where they are; fewer are gathered from all over a chunk.
+const DENSE_QUARTERS: usize = 3;
 /// Most standard deviations that a normal draw is off its mean: the sum of four 16-bit numbers ends at the root of 12.
 const MOST_DEVIATIONS: f32 = 3.5;
 
@@ -101,8 +103,8 @@ impl ParticleBlock<'_> {
         }
     }
 
-    /// Steps those that fly with nothing in their way, rest or wait to be born. Returns a bit for each that needs a step of its own, the
-    /// first in the lowest place. `frames` are those of parents that they go along with.
+    /// Steps those that fly with nothing in their way, rest or wait to be born. Returns a bit for each that is left, the first in the lowest
+    /// place: what it meets or its death needs a step of its own, or few beside it fly. `frames` are those of parents that they go along with.
     #[inline(always)]
     pub(crate) fn advance<P: Pack>(
         &mut self,
@@ -165,7 +167,9 @@ impl ParticleBlock<'_> {
         let is_idle = is_unborn(flags);
         let rests = state.equals(PARTICLE_RESTING) & !is_over;
         let flies = is_alive & !is_over;
-        if !flies.any() {
+        let count = P::bits_of(flies).count_ones() as usize;
+        let are_few = 4 * count < DENSE_QUARTERS * P::LANES && !all_coast && frames.is_none();
+        if count == 0 || are_few {
             if (!(flags & PARTICLE_MARKS).equals(0)).any() {
                 let [x, y, z, _] = places;
                 store_block(place, part, [x, y, z, P::from_bits(unmarked)]);

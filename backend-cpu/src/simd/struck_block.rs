@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One step of particles that something is in the way of, side by side in SIMD registers: up to sixteen from here and there of one population,
-//! none of them born in the step. They strike the ground alone; those that solid parts are near, and those that strike four times, are left.
+//! One step of particles that something is in the way of, or that few fly beside, side by side in SIMD registers: up to sixteen from here and
+//! there of one population, none of them born in the step. They strike the ground alone; those that solid parts are near, and those that
+//! strike four times, are left.
 
 use bytemuck::{must_cast_mut, must_cast_ref};
 use windfall_core::Context;
@@ -161,6 +162,9 @@ fn ground_contact<R: Real>(
         dies: nowhere,
         is_left: nowhere,
     };
+    if !is_struck.any() {
+        return contact;
+    }
     let mut time = none.all(cx.scene.dt_s);
     let mut from = start.position;
     let mut way = end.position - start.position;

@@ -13,6 +13,7 @@ mod force_carriers;
 mod forces;
 mod jet;
 mod nest;
+mod occupancy;
 mod particles;
 mod plume;
 mod shelter;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, Vec3};
 
+use super::occupancy::tabulate_occupancy;
 use super::slipstream::{drags_air, slipstream_block};
 use crate::blocks::{MoverBlock, SceneBlock, SlipstreamBlock, SolidsBlock};
 use crate::convert::{len32, single, word};
@@ -94,6 +95,7 @@ impl Solids {
         tables.extend(faces.rows);
         let around: Vec<(Rectangle, f64)> = self.still().map(|solid| surroundings(solid, reach_m)).collect();
         tabulate_grid(&around, &mut solids, tables);
+        tabulate_occupancy(self.still(), &mut solids, tables);
         solids
     }
 
@@ -225,7 +227,7 @@ fn cell_lists(
 }
 
 /// Words, four to a row.
-fn rows_of_words(words: &[u32]) -> impl Iterator<Item = Uint4> {
+pub(super) fn rows_of_words(words: &[u32]) -> impl Iterator<Item = Uint4> {
     words.chunks(4).map(|chunk| {
         let mut row = [0; 4];
         row[..chunk.len()].copy_from_slice(chunk);
@@ -234,7 +236,7 @@ fn rows_of_words(words: &[u32]) -> impl Iterator<Item = Uint4> {
 }
 
 /// Core and rounding of a shape without faces in m, and whether it is round.
-fn core_of(shape: &ObjectShape) -> (Vec3, f32, bool) {
+pub(super) fn core_of(shape: &ObjectShape) -> (Vec3, f32, bool) {
     match *shape {
         ObjectShape::Sphere { radius_m } => (Vec3::ZERO, radius_m, true),
         ObjectShape::Capsule { radius_m, length_m } => (Vec3::new(0.0, 0.5 * length_m, 0.0), radius_m, true),
@@ -333,7 +335,12 @@ impl FaceRows {
 
 /// Rectangle within which a leaf may meet a part that stands still, and the height below which it does.
 fn surroundings(solid: &Solid, reach_m: f64) -> (Rectangle, f64) {
-    let pose = solid.pose_at(0.0, |_, _| 0.0);
+    let [low, high] = extent_m(solid, &solid.pose_at(0.0, |_, _| 0.0));
+    ([low.x - reach_m, low.z - reach_m, high.x + reach_m, high.z + reach_m], high.y + reach_m)
+}
+
+/// Lowest and highest coordinates of a part in m.
+pub(super) fn extent_m(solid: &Solid, pose: &SolidPose) -> [DVec3; 2] {
     let [low, high] = match &solid.faces {
         Some(faces) => faces.turned_extent_m(pose.turn),
         None => {
@@ -344,8 +351,7 @@ fn surroundings(solid: &Solid, reach_m: f64) -> (Rectangle, f64) {
             [-beyond, beyond]
         }
     };
-    let (low, high) = (pose.center_m + low - reach_m, pose.center_m + high + reach_m);
-    ([low.x, low.z, high.x, high.z], high.y)
+    [pose.center_m + low, pose.center_m + high]
 }
 
 /// Components in single precision.

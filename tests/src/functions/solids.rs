@@ -13,7 +13,8 @@ use windfall_core::device::leaf::record::{SIZE_ONE, SPECIES_SHIFT, held_bits, is
 use windfall_core::device::leaf::strike::{comes_upon, is_borne, is_inside_solid, solid_footing};
 use windfall_core::device::solid::distance::solid_distance;
 use windfall_core::device::solid::near::{
-    Core, core_may_be_met, may_meet_solids, may_meet_solids_on_way, near_count, near_solid, solids_cell,
+    Core, core_may_be_met, is_occupied, may_meet_solids, may_meet_solids_on_way, near_count, near_solid,
+    solids_cell,
 };
 use windfall_core::device::solid::shape::{SolidAt, SolidDistance, solid_at, solid_velocity};
 
@@ -74,6 +75,17 @@ functions! {
         let cell = solids_cell(cx, vector(w, 0));
         let may_meet = u32::from(may_meet_solids(cx, vector(w, 0)));
         integers([cell, may_meet, near_count(cx, cell), near_solid(cx, cell, 0)])
+    };
+
+    is_occupied in "solid/near" (PLACE) tolerance None;
+    wgsl "if (scene.solids.count != 0u) {
+            r.x = u32(is_occupied(in_vec3(0u)));
+        }";
+    rust |cx, w| {
+        if !cx.scene.has_solids() {
+            return integers([0; 4]);
+        }
+        integers([u32::from(is_occupied(cx, vector(w, 0))), 0, 0, 0])
     };
 
     may_meet_solids_on_way in "solid/near" (PLACE, FLOW) tolerance None;

@@ -27,13 +27,32 @@ fn may_meet_solids(place: vec3<f32>) -> bool {
     return may_meet_movers(place) || (solids_cell(place) & LIST_LENGTH_MASK) != 0u;
 }
 
+fn is_occupied(place: vec3<f32>) -> bool {
+    let at = place - scene.solids.occupancy_low_m;
+    let cells = floor(at * scene.solids.occupancy_cells_per_m);
+    let column = bitcast<u32>(i32(cells.x));
+    let layer = bitcast<u32>(i32(cells.y));
+    let line = bitcast<u32>(i32(cells.z));
+    let is_inside = column < scene.solids.occupancy_columns && layer < scene.solids.occupancy_layers &&
+        line < scene.solids.occupancy_lines;
+    if (!is_inside) {
+        return false;
+    }
+    let cell = (line * scene.solids.occupancy_columns + column) * scene.solids.occupancy_layers + layer;
+    let bits = word_from(scene.solids.first_occupancy_row, cell >> 5u);
+    return ((bits >> (cell & 31u)) & 1u) != 0u;
+}
+
 fn may_meet_solids_on_way(place: vec3<f32>, way: vec3<f32>) -> bool {
     if (may_meet_movers(place)) {
         return true;
     }
-    let cell = solids_cell(place);
     let squared = max(vec3_dot(way, way), TINY_SQUARED);
     let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
+    if (!(OCCUPIED_WITHIN_M < reach || is_occupied(place))) {
+        return false;
+    }
+    let cell = solids_cell(place);
     for (var entry = 0u; entry < (cell & LIST_LENGTH_MASK); entry += 1u) {
         let number = word_from(scene.solids.first_list_row, (cell >> LIST_LENGTH_BITS) + entry);
         let row = number * SOLID_ROWS;

@@ -74,6 +74,8 @@ pub trait Word:
     fn times(self, other: Self) -> Self;
     /// High word of the 64-bit product.
     fn times_high(self, other: Self) -> Self;
+    /// Shift to the right by as many bits as another says, less than 32.
+    fn shift_by(self, bits: Self) -> Self;
     /// Two's complement shift to the right.
     fn shift_signed(self, bits: u32) -> Self;
     /// Value as a float, read as two's complement.
@@ -174,6 +176,10 @@ impl Word for u32 {
     #[inline(always)]
     fn times_high(self, other: Self) -> Self {
         ((u64::from(self) * u64::from(other)) >> 32) as u32
+    }
+    #[inline(always)]
+    fn shift_by(self, bits: Self) -> Self {
+        self >> bits
     }
     #[inline(always)]
     fn shift_signed(self, bits: u32) -> Self {

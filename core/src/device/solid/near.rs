@@ -19,6 +19,8 @@ crate::shared_constants! {
     pub const LIST_LENGTH_MASK: u32 = 8191;
     /// Distance in m from a part from which on nothing without extent touches it, whatever the rounding of places.
     pub const CLEAR_OF_SOLIDS_M: f32 = 0.002;
+    /// Distance in m from parts that stand still within which cells of the occupancy grid are occupied.
+    pub const OCCUPIED_WITHIN_M: f32 = 0.25;
 }
 
 /// Words of a list that begins with a row.
@@ -49,17 +51,41 @@ pub fn may_meet_solids<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     may_meet_movers(cx, place) | !(solids_cell(cx, place) & LIST_LENGTH_MASK).equals(0)
 }
 
+/// Returns true for places in occupied cells of the occupancy grid: those within [`OCCUPIED_WITHIN_M`] of a part that stands still, and
+/// some beside them.
+#[inline(always)]
+pub fn is_occupied<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
+    let solids = &cx.scene.solids;
+    let at = place - Vec3::from(solids.occupancy_low_m).spread(place.x);
+    let column = (at.x * solids.occupancy_cells_per_m).floor().to_whole();
+    let layer = (at.y * solids.occupancy_cells_per_m).floor().to_whole();
+    let line = (at.z * solids.occupancy_cells_per_m).floor().to_whole();
+    let is_inside = column.less_than(column.all(solids.occupancy_columns))
+        & layer.less_than(layer.all(solids.occupancy_layers))
+        & line.less_than(line.all(solids.occupancy_lines));
+    let none = column.all(0);
+    let stack = line.times(none.all(solids.occupancy_columns)).plus(column);
+    let cell = is_inside.select(stack.times(none.all(solids.occupancy_layers)).plus(layer), none);
+    let bits = word_from(cx, solids.first_occupancy_row, cell >> 5);
+    is_inside & !(bits.shift_by(cell & 31) & 1).equals(0)
+}
+
 /// Returns true for ways from places that may lead into a part that moves, or into one in the list of the cell. Only where there are any; for
 /// what has no extent.
 #[inline(always)]
 pub fn may_meet_solids_on_way<R: Real>(cx: &Context<'_>, place: Vec3<R>, way: Vec3<R>) -> R::Mask {
     let mut meets = may_meet_movers(cx, place);
-    let cell = solids_cell(cx, place);
-    let count = cell & LIST_LENGTH_MASK;
-    let first = cell >> LIST_LENGTH_BITS;
     let squared = vec3_dot(way, way).max(place.x.all(TINY_SQUARED));
     let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
-    let none = count.all(0);
+    let is_far = place.x.all(OCCUPIED_WITHIN_M).less_than(reach);
+    let asks = (is_far | is_occupied(cx, place)) & !meets;
+    if !asks.any() {
+        return meets;
+    }
+    let cell = solids_cell(cx, place);
+    let none = cell.all(0);
+    let count = asks.select(cell & LIST_LENGTH_MASK, none);
+    let first = cell >> LIST_LENGTH_BITS;
     for entry in 0.. {
         let is_listed = none.all(entry).less_than(count);
         if !(is_listed & !meets).any() {

@@ -87,6 +87,10 @@ macro_rules! pack {
                 a_high * b_high + (middle >> 16) + (carry >> 16)
             }
             #[inline(always)]
+            fn shift_by(self, bits: Self) -> Self {
+                self >> bits
+            }
+            #[inline(always)]
             fn shift_signed(self, bits: u32) -> Self {
                 (self.bitcast::<$signed<S>>() >> bits).bitcast()
             }
