@@ -130,6 +130,7 @@ pub(crate) fn constants() -> String {
         device::leaf::collide::wgsl_constants(),
         device::leaf::cone_spiral::wgsl_constants(),
         device::leaf::fall::wgsl_constants(),
+        device::leaf::fly::wgsl_constants(),
         device::leaf::own::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),
         device::leaf::lie::wgsl_constants(),

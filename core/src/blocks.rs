@@ -263,7 +263,7 @@ crate::shared_struct! {
 crate::shared_struct! {
     /// Solid parts, compiled: those that move first (see [`solid_at`](crate::device::solid::shape::solid_at)), and a grid of the lists
     /// of the others (see [`may_meet_solids`](crate::device::solid::near::may_meet_solids)).
-    pub struct SolidsBlock {
+    pub struct SolidsBlock, padding 12 {
         /// First row of the parts.
         pub first_row: u32,
         /// Number of parts that move.
@@ -300,6 +300,8 @@ crate::shared_struct! {
         pub occupancy_lines: u32,
         /// First row of its cells, a bit for each: upwards first, then along x.
         pub first_occupancy_row: u32,
+        /// Longest way of a leaf in m that begins in an empty cell and leads to no part that stands still; 0 if some leaf is too large.
+        pub clear_way_m: f32,
     }
 }
 

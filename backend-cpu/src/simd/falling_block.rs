@@ -7,6 +7,7 @@ use windfall_core::Context;
 use windfall_core::arith::Quat;
 use windfall_core::arith::lane::{Mask, Real, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, load_pairs, rows_of_bits, store_block};
+use windfall_core::arith::vector::vec3_dot;
 use windfall_core::device::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
 use windfall_core::device::leaf::own::MotionParams;
 use windfall_core::device::leaf::record::{STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_state};
@@ -83,7 +84,8 @@ impl FallingBlock<'_> {
 
         let mut lands = ground_met(cx, glide.position);
         if cx.scene.has_solids() {
-            lands = lands | may_meet_solids(cx, position);
+            let way = glide.position - position;
+            lands = lands | may_meet_solids(cx, position, vec3_dot(way, way));
         }
         let moved = falls & !lands;
         let Glide { position, drift: velocity, phase } = glide;

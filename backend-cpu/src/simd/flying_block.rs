@@ -9,7 +9,7 @@ use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
 use windfall_core::device::flight::contact::OverGround;
 use windfall_core::device::leaf::fly::{
-    Flight, Flown, count_calm_steps, flight_advance, flight_ends, update_regime,
+    Flight, Flown, count_calm_steps, flight_advance, flight_ends, longest_way_squared, update_regime,
 };
 use windfall_core::device::leaf::record::{body_spin, body_spin_words, flies, regime_state};
 use windfall_core::device::solid::near::may_meet_solids;
@@ -56,27 +56,27 @@ impl FlyingBlock<'_> {
         if !on.any() {
             return 0;
         }
+        let drifts: [P; 4] = load_block(simd, must_cast_ref(self.drift), part);
+        let (velocity, phase) = vector_and_fourth(drifts);
+        let wind = wind_at(cx, position);
         let mut left = 0;
         if cx.scene.has_solids() {
-            let near = may_meet_solids(cx, position);
+            let near = may_meet_solids(cx, position, longest_way_squared(cx, velocity, wind));
             left = P::bits_of(on & near);
             on = on & !near;
             if !on.any() {
                 return left;
             }
         }
-        let drifts: [P; 4] = load_block(simd, must_cast_ref(self.drift), part);
         let attitudes: [P; 4] = load_block(simd, must_cast_ref(self.attitude), part);
         let schedules: [P; 4] = load_block(simd, must_cast_ref(self.schedule), part);
         let identities: [P; 4] = load_block(simd, must_cast_ref(self.identity), part);
-        let (velocity, phase) = vector_and_fourth(drifts);
         let [event, rate, size, heading] = schedules;
         let [id, release, fall_time, appearance] = identities;
         let spins = [phase, rate, heading].map(|word| flying(on, word.to_bits()));
         let [phase, rate, heading] = spins;
         let start =
             Flight { position, velocity, pose: Quat::from(attitudes), spin: body_spin(phase, rate, heading) };
-        let wind = wind_at(cx, start.position);
         let Flown { flight, is_calm, is_wet } =
             flight_advance::<P, OverGround>(cx, start, bits, size.to_bits(), wind);
         let regime = update_regime(cx, &flight, wind, regime_state(fall_time.to_bits()), bits);

@@ -10,7 +10,7 @@ use super::occupancy::tabulate_occupancy;
 use super::slipstream::{drags_air, slipstream_block};
 use crate::blocks::{MoverBlock, SceneBlock, SlipstreamBlock, SolidsBlock};
 use crate::convert::{len32, single, word};
-use crate::device::solid::near::LIST_LENGTH_BITS;
+use crate::device::solid::near::{CLEAR_OF_SOLIDS_M, LIST_LENGTH_BITS, OCCUPIED_WITHIN_M};
 use crate::device::solid::shape::{SOLID_GRID, SOLID_HULL, SOLID_LOSS, SOLID_ROUND, SOLID_ROWS};
 use crate::error::SceneError;
 use crate::hull::Face;
@@ -76,15 +76,18 @@ impl Solids {
         if count == 0 {
             return bytemuck::Zeroable::zeroed();
         }
-        let largest = scene.species.iter().zip(&block.bodies).map(|(species, body)| {
+        let sizes = scene.species.iter().zip(&block.bodies).map(|(species, body)| {
             f64::from(body.half_along_m.max(body.half_across_m)) * (1.0 + f64::from(species.size_variation))
         });
-        let reach_m = largest.fold(0.0, f64::max) + FASTEST_M_S * f64::from(scene.dt_s);
+        let largest_m = sizes.fold(0.0, f64::max);
+        let reach_m = largest_m + FASTEST_M_S * f64::from(scene.dt_s);
+        let clear_way_m = f64::from(OCCUPIED_WITHIN_M - CLEAR_OF_SOLIDS_M) - largest_m;
         let mut solids = SolidsBlock {
             first_row: len32(tables.len()),
             mover_count: len32(self.movers().count()),
             count: len32(count),
             reach_m: single(reach_m),
+            clear_way_m: single(clear_way_m.max(0.0)),
             ..bytemuck::Zeroable::zeroed()
         };
         let mut faces = FaceRows::from(tables.len() + count * SOLID_ROWS as usize);

@@ -8,7 +8,9 @@ use windfall_core::device::flight::contact::OverGround;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::flight::regime::{regime_after, regime_of};
 use windfall_core::device::flight::runge_kutta::{flight_step, substep_count};
-use windfall_core::device::leaf::fly::{Flight, flight_advance, flight_load, update_regime};
+use windfall_core::device::leaf::fly::{
+    Flight, flight_advance, flight_load, longest_way_squared, update_regime,
+};
 use windfall_core::device::leaf::launch::{hold_pose, random_asymmetry, random_pose};
 use windfall_core::device::leaf::record::{SIZE_ONE, SPECIES_SHIFT, flies};
 
@@ -111,6 +113,10 @@ functions! {
         flight_load(cx, (1 + w[0]) << SPECIES_SHIFT, vector(w, 1), vector(w, 4)).to_bits(),
         u32::from(flies(w[1])),
     ]);
+
+    longest_way_squared in "leaf/fly" (FLOW, FLOW) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(longest_way_squared(in_vec3(0u), in_vec3(3u)));";
+    rust |cx, w| integers([longest_way_squared(cx, vector(w, 0), vector(w, 3)).to_bits()]);
 
     flight_advance in "leaf/fly" (SPECIES, SIZE, ANY, FLOW, FLOW, POSE, SPIN, FLOW) tolerance Some(1e-2);
     wgsl "let flown = flight_advance(

@@ -5,6 +5,7 @@
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::quaternion::quat_rotate;
+use windfall_core::arith::vector::vec3_dot;
 use windfall_core::device::flight::body::{LeafBody, body_of};
 use windfall_core::device::flight::contact::Contact;
 use windfall_core::device::flight::rates::FlightMotion;
@@ -63,17 +64,19 @@ functions! {
         floats([distance_m, normal.x, normal.y, normal.z, along.x, along.y, along.z, solid.bound_m])
     };
 
-    solids_cell in "solid/near" (PLACE) tolerance None;
+    solids_cell in "solid/near" (PLACE, FLOW) tolerance None;
     wgsl "if (scene.solids.count != 0u) {
             let cell = solids_cell(in_vec3(0u));
-            r = vec4<u32>(cell, u32(may_meet_solids(in_vec3(0u))), near_count(cell), near_solid(cell, 0u));
+            let way_squared = 0.01 * vec3_dot(in_vec3(3u), in_vec3(3u));
+            r = vec4<u32>(cell, u32(may_meet_solids(in_vec3(0u), way_squared)), near_count(cell), near_solid(cell, 0u));
         }";
     rust |cx, w| {
         if !cx.scene.has_solids() {
             return integers([0; 4]);
         }
         let cell = solids_cell(cx, vector(w, 0));
-        let may_meet = u32::from(may_meet_solids(cx, vector(w, 0)));
+        let way_squared = 0.01 * vec3_dot(vector(w, 3), vector(w, 3));
+        let may_meet = u32::from(may_meet_solids(cx, vector(w, 0), way_squared));
         integers([cell, may_meet, near_count(cx, cell), near_solid(cx, cell, 0)])
     };
 

@@ -3,7 +3,7 @@
 //! Changes of one constant or operator of a device function that must be noticed.
 
 /// Module, a line of it, the line changed, and a function of the table that shows it.
-pub(crate) const EDITS: [(&str, &str, &str, &str); 133] = [
+pub(crate) const EDITS: [(&str, &str, &str, &str); 135] = [
     ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
     ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
     ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
@@ -129,6 +129,13 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 133] = [
     ("solid/grid", "rise_near + (rise_far", "rise_far + (rise_far", "solid_distance"),
     ("solid/near", "line * scene", "column * scene", "solids_cell"),
     ("solid/near", "occupancy_layers + layer", "occupancy_layers + line", "is_occupied"),
+    ("solid/near", "is_short && !is_occupied", "is_short && is_occupied", "solids_cell"),
+    (
+        "leaf/fly",
+        "velocity - wind;\n    let relative",
+        "velocity + wind;\n    let relative",
+        "longest_way_squared",
+    ),
     ("solid/near", "near * near", "near * reach", "may_meet_solids_on_way"),
     ("solid/near", "squared * inverse - shape", "squared * inverse + shape", "core_may_be_met"),
     ("flight/strike", "motion.velocity - along", "motion.velocity", "strike_solids"),

@@ -364,7 +364,7 @@ fn what_moves_pushes_what_lies_in_its_way() {
     assert!(before > 500 && after * 10 < before, "{after} of {before} leaves are still in its way");
     let step = end.compiled.step_block(&end.clock);
     let far = Vec3::new(-3.9, 0.0, -3.9);
-    assert!(!may_meet_solids(&end.context(&step), far), "nothing is near the corner");
+    assert!(!may_meet_solids(&end.context(&step), far, 1.0), "nothing is near the corner");
 
     let mut walked = scene.clone();
     walked.objects.clear();

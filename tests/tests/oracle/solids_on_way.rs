@@ -3,17 +3,24 @@
 //! Solid parts that a particle may meet on its way: none that it strikes is passed over, and few others are looked for.
 #![expect(clippy::cast_possible_truncation, reason = "shares fit single precision")]
 
-use windfall_core::World;
+use glam::Vec3 as Point;
 use windfall_core::arith::Vec3;
+use windfall_core::arith::vector::vec3_dot;
 use windfall_core::blocks::NEVER;
 use windfall_core::device::flight::strike::Passage;
+use windfall_core::device::leaf::fly::longest_way_squared;
+use windfall_core::device::leaf::record::{STATE_FALLING, flies, leaf_state};
 use windfall_core::device::particle::step::is_in_reach_of_solids;
 use windfall_core::device::particle::strike::{STRIKE_GROUND, particle_strike};
 use windfall_core::device::solid::distance::solid_distance;
 use windfall_core::device::solid::near::{CLEAR_OF_SOLIDS_M, OCCUPIED_WITHIN_M, is_occupied};
 use windfall_core::device::solid::shape::solid_at;
-use windfall_core::scene::{ObjectMotion, ObjectShape};
+use windfall_core::device::wind::sample::wind_at;
+use windfall_core::scene::{Aerodynamics, FlightModel, Object, ObjectMotion, ObjectShape};
+use windfall_core::{Scene, World};
 use windfall_tests::strategies::obstructed_scene;
+
+use crate::solids::{scene, solid, stepped};
 
 /// Number of a sequence that fills -0.5 to 0.5 evenly.
 fn centred_share(number: u32, part: f64) -> f32 {
@@ -63,6 +70,26 @@ fn occupied_cells_are_those_near_parts() {
     assert!(near > 20_000 && far > 50_000, "{near} near, {far} far");
 }
 
+/// Below a plane every place is occupied, however deep.
+#[test]
+fn a_plane_has_no_end_below() {
+    let tilted = Object { tilt_deg: 20.0, ..solid(ObjectShape::Plane, Point::new(0.0, 4.0, 0.0)) };
+    for plane in [tilted.clone(), Object { tilt_deg: 0.0, ..tilted }] {
+        let world = World::build(&scene(vec![plane], 1)).expect("valid");
+        let step = world.compiled.step_block(&world.clock);
+        let cx = world.compiled.context(&step);
+        let mut below = 0;
+        for place in (0..10_000).map(place_among) {
+            if solid_distance(&cx, &solid_at(&cx, 0, 0.0), place).distance_m < 0.0 {
+                assert!(is_occupied(&cx, place), "{place:?}");
+                below += 1;
+            }
+        }
+        assert!(below > 5000, "{below} below");
+        assert!(!is_occupied(&cx, Vec3::new(0.0, 20.0, 0.0)));
+    }
+}
+
 /// The objects of such shapes, all of them still.
 fn still_objects(stands: impl Fn(&ObjectShape) -> bool) -> World {
     let mut scene = obstructed_scene(6, 30, 0.0, 1.0 / 60.0);
@@ -70,6 +97,38 @@ fn still_objects(stands: impl Fn(&ObjectShape) -> bool) -> World {
     scene.objects.iter_mut().for_each(|object| object.motion = ObjectMotion::Still);
     scene.objects.retain(|object| stands(&object.shape));
     World::build(&scene).expect("valid without what moves")
+}
+
+/// No body goes farther in a step than the way by which it is decided if it may meet solid parts, in a storm with gusts and eddies, let go
+/// at rest in it.
+#[test]
+fn bodies_go_no_farther_than_their_longest_way() {
+    let mut scene = Scene::preset("storm").expect("a preset");
+    for species in &mut scene.species {
+        species.flight = FlightModel::Aerodynamic(Aerodynamics::default());
+    }
+    let mut world = World::build(&scene).expect("valid");
+    let (mut longest, mut bodies) = (0.0f32, 0);
+    for _ in 0..120 {
+        let next = stepped(&world, 1);
+        let step = world.compiled.step_block(&world.clock);
+        let cx = world.context(&step);
+        for (slot, place) in world.leaves.place.iter().enumerate() {
+            let there = &next.leaves.place[slot];
+            let is_same = world.leaves.identity[slot].id == next.leaves.identity[slot].id;
+            if !is_same || !flies(place.bits) || leaf_state(place.bits) != STATE_FALLING {
+                continue;
+            }
+            let (from, velocity) =
+                (Vec3::from(place.position), Vec3::from(world.leaves.drift[slot].velocity));
+            let most = longest_way_squared(&cx, velocity, wind_at(&cx, from));
+            let way = Vec3::from(there.position) - from;
+            longest = longest.max(vec3_dot(way, way) / most);
+            bodies += 1;
+        }
+        world = next;
+    }
+    assert!(bodies > 100_000 && (0.2..1.0).contains(&longest), "{bodies} bodies, {longest}");
 }
 
 /// Ways of all lengths that strike one of the parts of such shapes, and those of which it is foreseen though they begin clear of all.

@@ -6,6 +6,7 @@
 #import arith/math
 #import arith/quaternion
 #import arith/rng
+#import arith/vector
 #import leaf/own
 #import leaf/record
 #import leaf/settle
@@ -102,7 +103,10 @@ fn leaf_fall_aloft(leaf: u32, place: Place, schedule: Schedule) -> bool {
     let glide = glide_of(place, drifts[leaf]);
     let wind = wind_unpack(airs[leaf]);
     let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits), wind);
-    if (ground_met(moved.position) || (scene.solids.count != 0u && may_meet_solids(glide.position))) {
+    let way = moved.position - glide.position;
+    let way_squared = vec3_dot(way, way);
+    let is_near = scene.solids.count != 0u && may_meet_solids(glide.position, way_squared);
+    if (ground_met(moved.position) || is_near) {
         return false;
     }
     glide_end(leaf, moved, place.bits, schedule.heading);

@@ -3,7 +3,9 @@
 // twin: core/src/device/leaf/fly.rs
 // A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
 #import bindings
+#import arith/math
 #import arith/quaternion
+#import arith/vector
 #import flight/body
 #import flight/contact
 #import flight/regime
@@ -37,6 +39,15 @@ struct Flown {
     flight: Flight,
     is_calm: bool,
     is_wet: bool,
+}
+
+fn longest_way_squared(velocity: vec3<f32>, wind: vec3<f32>) -> f32 {
+    let slip = velocity - wind;
+    let relative = max(vec3_dot(slip, slip), TINY_SQUARED);
+    let carried = max(vec3_dot(wind, wind), TINY_SQUARED);
+    let speed = (relative * inverse_sqrt(relative) + carried * inverse_sqrt(carried)) + FLIGHT_GAIN_M_S;
+    let way = speed * scene.dt_s;
+    return way * way;
 }
 
 fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
@@ -184,7 +195,8 @@ fn leaf_fly(leaf: u32) {
     }
     let start = flight_of(leaf);
     let wind = wind_at(start.position);
-    let is_among_solids = scene.solids.count != 0u && may_meet_solids(start.position);
+    let is_among_solids = scene.solids.count != 0u &&
+        may_meet_solids(start.position, longest_way_squared(start.velocity, wind));
     let flown = flight_advance(start, places[leaf].bits, schedules[leaf].size, wind, is_among_solids);
     flight_write(leaf, flown.flight);
     let regime = update_regime(flown.flight, wind, regime_state(identities[leaf].fall_time), places[leaf].bits);

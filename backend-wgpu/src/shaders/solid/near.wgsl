@@ -23,16 +23,12 @@ fn solids_cell(place: vec3<f32>) -> u32 {
     return word_from(scene.solids.first_cell_row, line * scene.solids.columns + column);
 }
 
-fn may_meet_solids(place: vec3<f32>) -> bool {
-    return may_meet_movers(place) || (solids_cell(place) & LIST_LENGTH_MASK) != 0u;
-}
-
 fn is_occupied(place: vec3<f32>) -> bool {
     let at = place - scene.solids.occupancy_low_m;
-    let cells = floor(at * scene.solids.occupancy_cells_per_m);
-    let column = bitcast<u32>(i32(cells.x));
-    let layer = bitcast<u32>(i32(cells.y));
-    let line = bitcast<u32>(i32(cells.z));
+    let column = bitcast<u32>(i32(floor(at.x * scene.solids.occupancy_cells_per_m)));
+    // A plane has no end below.
+    let layer = bitcast<u32>(i32(floor(max(at.y, 0.0) * scene.solids.occupancy_cells_per_m)));
+    let line = bitcast<u32>(i32(floor(at.z * scene.solids.occupancy_cells_per_m)));
     let is_inside = column < scene.solids.occupancy_columns && layer < scene.solids.occupancy_layers &&
         line < scene.solids.occupancy_lines;
     if (!is_inside) {
@@ -41,6 +37,17 @@ fn is_occupied(place: vec3<f32>) -> bool {
     let cell = (line * scene.solids.occupancy_columns + column) * scene.solids.occupancy_layers + layer;
     let bits = word_from(scene.solids.first_occupancy_row, cell >> 5u);
     return ((bits >> (cell & 31u)) & 1u) != 0u;
+}
+
+fn may_meet_solids(place: vec3<f32>, way_squared: f32) -> bool {
+    if (may_meet_movers(place)) {
+        return true;
+    }
+    let is_short = way_squared < scene.solids.clear_way_m * scene.solids.clear_way_m;
+    if (is_short && !is_occupied(place)) {
+        return false;
+    }
+    return (solids_cell(place) & LIST_LENGTH_MASK) != 0u;
 }
 
 fn may_meet_solids_on_way(place: vec3<f32>, way: vec3<f32>) -> bool {

@@ -20,7 +20,7 @@ use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_blend};
 use crate::arith::rng::mul_q16;
-use crate::arith::vector::Vec3;
+use crate::arith::vector::{Vec3, vec3_dot};
 use crate::context::Context;
 use crate::device::solid::near::may_meet_solids;
 use crate::device::terrain::ground::ground_met;
@@ -183,7 +183,10 @@ pub fn leaf_fall_aloft(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let glide = glide_of(leaf.place, leaf.drift);
     let (params, wind) = (motion_params(*leaf.schedule), wind_unpack(*leaf.air));
     let moved = glide_step(cx, glide, bits, params, response_of(cx, bits), wind);
-    if ground_met(cx, moved.position) || (cx.scene.has_solids() && may_meet_solids(cx, glide.position)) {
+    let way = moved.position - glide.position;
+    let way_squared = vec3_dot(way, way);
+    let is_near = cx.scene.has_solids() && may_meet_solids(cx, glide.position, way_squared);
+    if ground_met(cx, moved.position) || is_near {
         return false;
     }
     glide_end(cx, leaf, moved, bits, heading);

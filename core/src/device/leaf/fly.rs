@@ -44,6 +44,23 @@ pub struct Flight<R: Real = f32> {
     pub spin: Vec3<R>,
 }
 
+crate::shared_constants! {
+    /// Speed in m/s that a body gains at most in a step besides that of the wind and its own through it: its weight and its spin give little.
+    pub const FLIGHT_GAIN_M_S: f32 = 2.0;
+}
+
+/// Square in m² of the longest way that a body goes in a step in a wind: drag takes from its speed through the air, and lift adds none.
+#[inline(always)]
+pub fn longest_way_squared<R: Real>(cx: &Context<'_>, velocity: Vec3<R>, wind: Vec3<R>) -> R {
+    let tiny = velocity.x.all(TINY_SQUARED);
+    let slip = velocity - wind;
+    let relative = vec3_dot(slip, slip).max(tiny);
+    let carried = vec3_dot(wind, wind).max(tiny);
+    let speed = (relative * inverse_sqrt(relative) + carried * inverse_sqrt(carried)) + FLIGHT_GAIN_M_S;
+    let way = speed * cx.scene.dt_s;
+    way * way
+}
+
 /// Load on a step: the number of substeps that it needs at least.
 #[inline(always)]
 pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, spin: Vec3<R>) -> R {
@@ -278,7 +295,9 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = flight_of(leaf);
     let wind = wind_at(cx, start.position);
     let (bits, size) = (leaf.place.bits, leaf.schedule.size);
-    let Flown { flight, is_calm, is_wet } = if cx.scene.has_solids() && may_meet_solids(cx, start.position) {
+    let is_among_solids = cx.scene.has_solids()
+        && may_meet_solids(cx, start.position, longest_way_squared(cx, start.velocity, wind));
+    let Flown { flight, is_calm, is_wet } = if is_among_solids {
         flight_advance::<f32, AmongSolids>(cx, start, bits, size, wind)
     } else {
         flight_advance::<f32, OverGround>(cx, start, bits, size, wind)

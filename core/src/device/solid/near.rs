@@ -45,12 +45,6 @@ pub fn solids_cell<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Word {
     is_inside.select(word_from(cx, solids.first_cell_row, cell), none)
 }
 
-/// Returns true for leaves that may meet a solid part in this step. Only where there are any.
-#[inline(always)]
-pub fn may_meet_solids<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
-    may_meet_movers(cx, place) | !(solids_cell(cx, place) & LIST_LENGTH_MASK).equals(0)
-}
-
 /// Returns true for places in occupied cells of the occupancy grid: those within [`OCCUPIED_WITHIN_M`] of a part that stands still, and
 /// some beside them.
 #[inline(always)]
@@ -58,7 +52,8 @@ pub fn is_occupied<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     let solids = &cx.scene.solids;
     let at = place - Vec3::from(solids.occupancy_low_m).spread(place.x);
     let column = (at.x * solids.occupancy_cells_per_m).floor().to_whole();
-    let layer = (at.y * solids.occupancy_cells_per_m).floor().to_whole();
+    // A plane has no end below.
+    let layer = (at.y.max(at.y.all(0.0)) * solids.occupancy_cells_per_m).floor().to_whole();
     let line = (at.z * solids.occupancy_cells_per_m).floor().to_whole();
     let is_inside = column.less_than(column.all(solids.occupancy_columns))
         & layer.less_than(layer.all(solids.occupancy_layers))
@@ -68,6 +63,19 @@ pub fn is_occupied<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     let cell = is_inside.select(stack.times(none.all(solids.occupancy_layers)).plus(layer), none);
     let bits = word_from(cx, solids.first_occupancy_row, cell >> 5);
     is_inside & !(bits.shift_by(cell & 31) & 1).equals(0)
+}
+
+/// Returns true for leaves that may meet a solid part in this step, on a way that is at most so long. Only where there are any.
+#[inline(always)]
+pub fn may_meet_solids<R: Real>(cx: &Context<'_>, place: Vec3<R>, way_squared: R) -> R::Mask {
+    let meets = may_meet_movers(cx, place);
+    let clear_way_m = cx.scene.solids.clear_way_m;
+    let is_short = way_squared.less_than(place.x.all(clear_way_m * clear_way_m));
+    let asks = !(is_short & !is_occupied(cx, place)) & !meets;
+    if !asks.any() {
+        return meets;
+    }
+    meets | (asks & !(solids_cell(cx, place) & LIST_LENGTH_MASK).equals(0))
 }
 
 /// Returns true for ways from places that may lead into a part that moves, or into one in the list of the cell. Only where there are any; for
