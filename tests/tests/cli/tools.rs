@@ -45,6 +45,19 @@ fn without_adapters_the_processor_simulates_and_says_so() {
 }
 
 #[test]
+fn bench_times_the_passes_of_a_frame() {
+    for (preset, is_sorted) in [("particle-lab", true), ("six-motions", false)] {
+        let arguments = ["bench", preset, "--draw", "--leaves", "10", "--size", "64x36", "--json"];
+        let outcome = windfall(&folder(), &arguments);
+        let row = outcome.json();
+        let passes = row["passes"].as_array().expect("passes");
+        let milliseconds = |name| passes.iter().find(|row| row["pass"] == name).map(|row| row["ms"].as_f64());
+        assert!(milliseconds("scene").flatten().is_some_and(|ms| ms > 0.0), "{preset}: {row}");
+        assert_eq!(milliseconds("particle order").is_some(), is_sorted, "{preset}: {row}");
+    }
+}
+
+#[test]
 fn bench_measures_every_approach_and_the_memory() {
     let arguments = ["bench", "storm", "--leaves", "100", "--steps", "3", "--json"];
     let outcome = windfall(&folder(), &arguments);

@@ -140,13 +140,14 @@ impl DrawList {
         columns.count.min(self.slots)
     }
 
-    /// Lists what is there at `time_s`, in the order in which `camera` sees it.
+    /// Lists what is there at `time_s`, in the order in which `camera` sees it; a timer writes how long that takes.
     pub(crate) fn run(
         &self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         (columns, looks): (&ParticleColumns<'_>, &LookBuffers),
         (camera, time_s, shutter_s): (&Camera, f64, f32),
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) {
         #[expect(clippy::cast_possible_truncation, reason = "whole steps within weeks")]
         let step = (time_s / f64::from(self.dt_s)).round() as i32;
@@ -180,7 +181,7 @@ impl DrawList {
         encoder.clear_buffer(&self.seen_count, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("particle list"),
-            timestamp_writes: None,
+            timestamp_writes,
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(2, &group, &[]);

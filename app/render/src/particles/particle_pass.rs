@@ -89,9 +89,10 @@ impl ParticlePass {
         encoder: &mut wgpu::CommandEncoder,
         columns: Option<&ParticleColumns<'_>>,
         seen: (&Camera, f64, f32),
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) {
         self.group = columns.map(|columns| {
-            self.list.run((device, queue), encoder, (columns, &self.looks), seen);
+            self.list.run((device, queue), encoder, (columns, &self.looks), seen, timestamp_writes);
             let LookBuffers { populations, rows, .. } = &self.looks;
             let ParticleColumns { place, motion, traits, history, .. } = *columns;
             let shared = [&self.list.uniform, place, motion, populations, history];

@@ -60,7 +60,10 @@ impl Renderer {
                 self.sample_trails(encoder, leaves, input.time_s);
                 if let Some(particles) = &mut self.particle_pass {
                     let seen = (&input.camera, input.time_s, self.post.shutter_s());
-                    particles.prepare((&self.device, &self.queue), encoder, world.particles.as_ref(), seen);
+                    let columns = world.particles.as_ref();
+                    let timer = self.timer.as_ref().filter(|_| columns.is_some());
+                    let writes = timer.map(|timer| timer.compute_writes(0));
+                    particles.prepare((&self.device, &self.queue), encoder, columns, seen, writes);
                 }
                 if let Some(landings) = &self.landing_pass {
                     landings.count.run(&self.device, encoder, leaves);
@@ -140,7 +143,7 @@ impl Renderer {
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
         let writes = |pass| timer.map(|timer| timer.render_writes(pass));
-        let shadow_writes = timer.map(|timer| timer.split_writes(0));
+        let shadow_writes = timer.map(|timer| timer.split_writes(1));
         let cull_for = |encoder: &mut wgpu::CommandEncoder, map| {
             self.cull_leaves(encoder, world, LeafView::Shadow(map));
         };
@@ -150,7 +153,7 @@ impl Renderer {
         }
         self.draw_mirror(encoder, &group);
         self.cull_leaves(encoder, world, LeafView::Camera);
-        self.draw_scene(encoder, writes(1), leaves.leaf_count, &group);
+        self.draw_scene(encoder, writes(2), leaves.leaf_count, &group);
         self.draw_motion(encoder, leaves, input.time_s);
         self.targets.place(encoder, tile);
         self.post.take_tile(&self.queue, encoder, tile, shot);

@@ -56,9 +56,10 @@ use crate::trees::fruit_pass::FruitPass;
 use crate::trees::records::TreeRecords;
 
 /// Passes that are timed, in order of drawing.
-const TIMED_PASSES: [&str; 7] = ["shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
+const TIMED_PASSES: [&str; 8] =
+    ["particle order", "shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
 /// Numbers of the timed passes after the scene.
-const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 2, focus: 3, exposure: 4, glare: 5, tone_map: 6 };
+const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 3, focus: 4, exposure: 5, glare: 6, tone_map: 7 };
 
 /// Draws a scene's leaves in their park.
 ///

@@ -60,13 +60,13 @@ impl DrawRow {
              {step_ms:.2} ms a step on {backend} (medians of {frames})\n"
         );
         for PassRow { pass, ms } in &self.passes {
-            text += &format!("  {pass:<12}{ms:>10.3} ms\n");
+            text += &format!("  {pass:<14}{ms:>10.3} ms\n");
         }
         if self.passes.is_empty() {
             text += "  this adapter has no timestamps\n";
         } else {
             let sum: f64 = self.passes.iter().map(|row| row.ms).sum();
-            text += &format!("  {:<12}{sum:>10.3} ms\n", "all passes");
+            text += &format!("  {:<14}{sum:>10.3} ms\n", "all passes");
         }
         text
     }
