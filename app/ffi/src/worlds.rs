@@ -99,6 +99,8 @@ impl Held {
             let known: Vec<_> = known.iter().map(|name| name.to_string_lossy()).collect();
             return Err(Failure::Argument(format!("no column '{name}'; allowed: {}", known.join(", "))));
         };
+        // Nothing is lent where reading back fails.
+        self.world()?;
         self.lent += 1;
         let mut columns = self.world()?.stores().into_iter().flat_map(|store| {
             let sizes = store.description().iter().map(|column| column.record_bytes);

@@ -58,8 +58,12 @@ fn a_c_program_gets_the_bits_that_rust_gets() {
             world.stats().leaves.falling,
             world.state_hash(),
         );
-        let found = printed(&run(&["cc", "-std=c99"], "examples/fall.c", &[preset, &steps.to_string()]));
-        assert_eq!(found, wanted, "{preset}");
+        let backends: &[&str] = if preset == "six-motions" { &["cpu", "wgpu"] } else { &["cpu"] };
+        for backend in backends {
+            let arguments = [preset, &steps.to_string(), backend];
+            let found = printed(&run(&["cc", "-std=c99"], "examples/fall.c", &arguments));
+            assert_eq!(found, wanted, "{preset} on {backend}");
+        }
     }
 }
 
