@@ -7,19 +7,19 @@
 #![expect(unsafe_code, reason = "functions that C calls take pointers, and have names that C knows")]
 
 mod error;
+mod pointers;
 mod worlds;
 
-use std::ffi::{CStr, c_char};
+use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use windfall_core::leaf::{LeafMotion, LeafView};
-use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
-use windfall_core::scene::FlightModel;
-use windfall_core::{Scene, SceneError, World};
+use windfall_core::leaf::LeafView;
+use windfall_core::{Scene, World};
 
 pub use error::WindfallStatus;
 use error::{Failure, last_error, note};
-use worlds::{Held, column_names, free, keep, with};
+use pointers::{backend_of, give, text_of, wanted};
+use worlds::{Held, built, column_names, free, keep, with};
 
 /// Version of this interface. It changes when a function or a struct does.
 pub const WINDFALL_ABI_VERSION: u32 = 1;
@@ -94,69 +94,6 @@ pub struct WindfallCounts {
 /// Does what a call asks for, and notes how it went.
 fn call(work: impl FnOnce() -> Result<(), Failure>) -> WindfallStatus {
     note(catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(Failure::of_panic(panic.as_ref()))))
-}
-
-/// The world of a scene. Folders of leaves, after which the command builds bodies, are not read here.
-fn built(scene: &Scene, file: &str) -> Result<World, Failure> {
-    for (number, species) in scene.species.iter().enumerate() {
-        if let (FlightModel::Aerodynamic(body), Some(folder)) = (species.flight, &species.leaves)
-            && body.planform.is_none()
-        {
-            return Err(Failure::Scene(SceneError::Field {
-                file: file.into(),
-                field: format!("species[{number}].leaves"),
-                value: format!("\"{folder}\""),
-                allowed: "None, or flight with a planform: folders of leaves are read by the command".into(),
-            }));
-        }
-    }
-    Ok(World::build_named(scene, file)?)
-}
-
-/// Text of a caller.
-///
-/// # Safety
-/// `text` is null or a string that ends with a zero and stays as it is during the call.
-unsafe fn text_of<'a>(text: *const c_char, name: &str) -> Result<&'a str, Failure> {
-    if text.is_null() {
-        return Err(Failure::Argument(format!("{name} is NULL; allowed: a string")));
-    }
-    // SAFETY: it is not null, and the caller vouches for the rest.
-    let bytes = unsafe { CStr::from_ptr(text) };
-    bytes.to_str().map_err(|_| Failure::Argument(format!("{name} is not UTF-8; allowed: UTF-8")))
-}
-
-/// Name of a backend of a caller, by itself if there is none.
-///
-/// # Safety
-/// As for [`text_of`].
-unsafe fn backend_of<'a>(backend: *const c_char) -> Result<&'a str, Failure> {
-    if backend.is_null() {
-        return Ok("auto");
-    }
-    // SAFETY: the caller vouches for it.
-    unsafe { text_of(backend, "backend") }
-}
-
-/// Writes an answer to where the caller wants it.
-///
-/// # Safety
-/// `place` is null or may be written.
-unsafe fn give<T>(place: *mut T, name: &str, answer: T) -> Result<(), Failure> {
-    if place.is_null() {
-        return Err(Failure::Argument(format!("{name} is NULL; allowed: where to write to")));
-    }
-    // SAFETY: it is not null, and the caller vouches for the rest.
-    unsafe { place.write(answer) };
-    Ok(())
-}
-
-/// Refuses a null pointer before anything is done for it.
-fn wanted<T>(place: *const T, name: &str) -> Result<(), Failure> {
-    if place.is_null() {
-        return Err(Failure::Argument(format!("{name} is NULL; allowed: where to write to")));
-    }
-    Ok(())
 }
 
 /// `WINDFALL_ABI_VERSION` of the library: compare it with that of the header.
@@ -419,11 +356,6 @@ pub unsafe extern "C" fn windfall_world_save(
 
 /// A leaf of a world.
 fn decoded(world: &World, leaf: &LeafView) -> WindfallLeaf {
-    let motion = match leaf.motion {
-        None => 0,
-        Some(LeafMotion::Primitive(primitive)) => 1 + Primitive::index(primitive),
-        Some(LeafMotion::Regime(regime)) => 1 + PRIMITIVE_COUNT + regime,
-    };
     #[expect(
         clippy::cast_possible_truncation,
         reason = "a few species and motions; seconds as single precision"
@@ -437,6 +369,6 @@ fn decoded(world: &World, leaf: &LeafView) -> WindfallLeaf {
         id: leaf.id,
         species: leaf.species as u32,
         state: leaf.state as u32,
-        motion: motion as u32,
+        motion: leaf.motion_number() as u32,
     }
 }

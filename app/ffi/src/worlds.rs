@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
-use windfall_core::leaf::Leaves;
-use windfall_core::{Clock, SimError, Simulator, World};
+use windfall_core::scene::FlightModel;
+use windfall_core::{Clock, Scene, SceneError, SimError, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
@@ -25,6 +25,23 @@ enum Device {
         copy: Box<World>,
         is_current: bool,
     },
+}
+
+/// The world of a scene. Folders of leaves, after which the command builds bodies, are not read here.
+pub(crate) fn built(scene: &Scene, file: &str) -> Result<World, Failure> {
+    for (number, species) in scene.species.iter().enumerate() {
+        if let (FlightModel::Aerodynamic(body), Some(folder)) = (species.flight, &species.leaves)
+            && body.planform.is_none()
+        {
+            return Err(Failure::Scene(SceneError::Field {
+                file: file.into(),
+                field: format!("species[{number}].leaves"),
+                value: format!("\"{folder}\""),
+                allowed: "None, or flight with a planform: folders of leaves are read by the command".into(),
+            }));
+        }
+    }
+    Ok(World::build_named(scene, file)?)
 }
 
 /// A world that goes on.
@@ -124,13 +141,8 @@ impl Held {
 /// Names of the columns of every world: `place` of leaves, `particles.place` of other stores.
 pub(crate) fn column_names() -> &'static [CString] {
     static NAMES: LazyLock<Vec<CString>> = LazyLock::new(|| {
-        let world = World::build(&windfall_core::Scene::default()).expect("the default scene is valid");
-        let stores = world.stores().into_iter();
-        let names = stores.flat_map(|store| {
-            let prefix =
-                if store.name() == Leaves::NAME { String::new() } else { format!("{}.", store.name()) };
-            store.description().iter().map(move |column| format!("{prefix}{}", column.name))
-        });
+        let world = World::build(&Scene::default()).expect("the default scene is valid");
+        let names = world.column_names().into_iter().flatten();
         names.map(|name| CString::new(name).expect("names have no zeros")).collect()
     });
     &NAMES

@@ -4,8 +4,7 @@
 
 use windfall_core::World;
 use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::leaf::{LeafMotion, Leaves};
-use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
+use windfall_core::motion::Primitive;
 use windfall_core::store::Column as Description;
 
 /// A decoded column: name, type as numpy writes it, numbers of a row, bytes.
@@ -13,11 +12,10 @@ pub(crate) type Decoded = (&'static str, &'static str, usize, Vec<u8>);
 
 /// Stores and columns with their names: `place` of leaves, `particles.place` of others.
 pub(crate) fn named(world: &World) -> Vec<(String, usize, usize, &'static Description)> {
-    let stores = world.stores().into_iter().enumerate();
-    let columns = stores.flat_map(|(at, store)| {
-        let prefix = if store.name() == Leaves::NAME { String::new() } else { format!("{}.", store.name()) };
-        let columns = store.description().iter().enumerate();
-        columns.map(move |(number, column)| (format!("{prefix}{}", column.name), at, number, column))
+    let stores = world.stores().into_iter().zip(world.column_names()).enumerate();
+    let columns = stores.flat_map(|(at, (store, names))| {
+        let columns = names.into_iter().zip(store.description()).enumerate();
+        columns.map(move |(number, (name, column))| (name, at, number, column))
     });
     columns.collect()
 }
@@ -41,7 +39,8 @@ pub(crate) fn leaves(world: &World) -> Vec<Decoded> {
         quaternion.push(leaf.attitude.to_array());
         size.push(leaf.size * world.compiled.scene().species[leaf.species].size_m);
         release_s.push(f64::from(leaf.release) * f64::from(world.clock.dt_s()));
-        motion.push(number(leaf.motion));
+        // Among [`motions`].
+        motion.push(u8::try_from(leaf.motion_number()).unwrap_or(u8::MAX));
     }
     vec![
         ("id", "<u4", 1, bytemuck::cast_slice(&id).to_vec()),
@@ -59,14 +58,4 @@ pub(crate) fn leaves(world: &World) -> Vec<Decoded> {
 /// Names of motions by their numbers: none, then codes of the primitive motions, then regimes of bodies.
 pub(crate) fn motions() -> Vec<&'static str> {
     [""].into_iter().chain(Primitive::ALL.map(Primitive::code)).chain(REGIME_NAMES).collect()
-}
-
-/// Number of a motion among [`motions`].
-fn number(motion: Option<LeafMotion>) -> u8 {
-    let place = match motion {
-        None => 0,
-        Some(LeafMotion::Primitive(primitive)) => 1 + primitive.index(),
-        Some(LeafMotion::Regime(regime)) => 1 + PRIMITIVE_COUNT + regime,
-    };
-    u8::try_from(place).unwrap_or(u8::MAX)
 }

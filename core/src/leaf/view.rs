@@ -11,7 +11,7 @@ use crate::device::leaf::record::{
     Attitude, Drift, Identity, Place, SIZE_UNIT, Schedule, body_spin, flies, leaf_primitive, leaf_regime,
     leaf_source, leaf_stage, leaf_tint, leaf_variant, own_size, size_ratio,
 };
-use crate::motion::Primitive;
+use crate::motion::{PRIMITIVE_COUNT, Primitive};
 
 /// The records of one leaf.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,6 +73,15 @@ pub struct LeafView {
 }
 
 impl LeafView {
+    /// Number of the motion: 0 without one, then primitive motions in the order of [`Primitive::ALL`], then regimes of bodies.
+    pub fn motion_number(&self) -> usize {
+        match self.motion {
+            None => 0,
+            Some(LeafMotion::Primitive(primitive)) => 1 + primitive.index(),
+            Some(LeafMotion::Regime(regime)) => 1 + PRIMITIVE_COUNT + regime,
+        }
+    }
+
     /// Code of the primitive motion in tables, such as `SD`; empty if it has none.
     pub fn motion_code(&self) -> &'static str {
         match self.motion {

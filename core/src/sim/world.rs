@@ -185,6 +185,16 @@ impl World {
         vec![leaves, branches, bed, particles, tallies, history, burns]
     }
 
+    /// Names of the columns of [`World::stores`], store by store: of leaves alone (`place`), of others after the store (`particles.place`).
+    pub fn column_names(&self) -> Vec<Vec<String>> {
+        let names = |store: &dyn Store| {
+            let prefix =
+                if store.name() == Leaves::NAME { String::new() } else { format!("{}.", store.name()) };
+            store.description().iter().map(|column| format!("{prefix}{}", column.name)).collect()
+        };
+        self.stores().into_iter().map(names).collect()
+    }
+
     /// All stores, to be filled.
     pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
         let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history, burns } = self;
