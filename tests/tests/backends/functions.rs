@@ -223,8 +223,11 @@ const TOUCHES: [&str; 8] = [
 ];
 
 /// Returns true if a function's results in a world can be compared: rounding decides about a strike, and if a body touches, and after that it
-/// goes another way.
+/// goes another way. The row of a vortex that is not there divides nothing by nothing, and adapters write the result with either sign.
 fn is_comparable(contract: Contract, function: &Function, world: &World) -> bool {
+    if function.name == "wind_vortex" && world.compiled.scene().wind.vortices.is_empty() {
+        return false;
+    }
     let is_loose = contract == Contract::Tolerant;
     let touches = !world.bed.is_empty() && TOUCHES.contains(&function.name);
     !(is_loose && (touches || STRIKES.contains(&function.name)))
