@@ -8,7 +8,7 @@ use std::error::Error;
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, RenderScene, Renderer, RendererOptions};
+use windfall_render::{FrameInput, LensMoment, RenderScene, Renderer, RendererOptions};
 use windfall_texgen::{Assortment, Atlas, Layer, Shape, TexgenError};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, instance_descriptor, wgpu};
 
@@ -67,7 +67,6 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     });
-    let mut since_s = f32::INFINITY;
     for frame in 1..=frames {
         // A step and a frame in the program's own submission, among whatever else it does.
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -75,7 +74,7 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
         let input = FrameInput {
             camera: Camera::from(&scene.view.camera),
             time_s: f64::from(frame) * f64::from(scene.dt_s),
-            since_s,
+            moment: LensMoment::of_frame(frame - 1, scene.dt_s.into()),
             origin: (0, 0),
         };
         renderer.draw(&mut encoder, &view, &simulator.columns(), &input);
@@ -84,7 +83,6 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
         let to = wgpu::TexelCopyBufferInfo { buffer: &rows, layout };
         encoder.copy_texture_to_buffer(picture.as_image_copy(), to, picture.size());
         queue.submit([encoder.finish()]);
-        since_s = scene.dt_s;
     }
     let mut pixels = vec![0; (SIZE.0 * SIZE.1 * 4) as usize];
     gpu.read(&rows, &mut pixels)?;

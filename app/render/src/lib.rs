@@ -29,11 +29,13 @@ pub mod trees;
 
 pub use error::RenderError;
 pub use frame::input::FrameInput;
+pub use frame::lens_moment::LensMoment;
 pub use gpu::readback::PictureTarget;
 pub use gpu::shader_edit::with_shader_edit;
 pub use gpu::timing::GpuTimer;
 pub use leaves::meshes::shaped;
 pub use leaves::species_table::{MAX_LAYERS, SpeciesRow, dryness, turned};
+pub use lens::metering::{is_metered, memory_s};
 pub use marks::{
     ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, ParticleMeasure, ParticlePaint, RESTING,
     ShelterMap, population_bytes, shade_bytes,

@@ -6,12 +6,14 @@ use std::path::PathBuf;
 
 use anyhow::{Context, bail};
 use clap::Args;
+use serde_json::json;
 use windfall_core::{Simulator, World};
 use windfall_render::trees::SceneTrees;
 
-use crate::export::{self, Content, Estimate, Format, FrameRange, Job, Observer, check_space};
+use crate::export::{self, Content, Estimate, Format, Job, Observer, check_space};
 use crate::run::backend::{Backend, BackendArguments};
 use crate::run::cancel::Cancel;
+use crate::run::frame_range::FrameRange;
 use crate::run::frame_steps::{FrameSteps, LoopFrames};
 use crate::run::looped::build_cycle;
 use crate::run::parse::frame_rate;
@@ -20,6 +22,7 @@ use crate::run::progress;
 use crate::run::scene_arguments::SceneArguments;
 use crate::run::stepping::Stepping;
 use crate::run::terminal;
+use crate::run::work_identity::work_identity;
 
 /// Most steps of an export.
 const MAX_STEPS: u64 = 1_000_000_000;
@@ -48,13 +51,17 @@ pub struct Arguments {
     /// Frames per second.
     #[arg(long, value_name = "FPS", default_value = "60", value_parser = frame_rate)]
     fps: f64,
+    /// Begin anew where an unfinished export of other options or of another scene lies beside the output. Without this an unfinished export of
+    /// the same ones is gone on with: as USD behind the layers that are finished, as CSV and PLY behind the frames; glTF begins anew in any case.
+    #[arg(long)]
+    restart: bool,
 }
 
 /// Runs the command. Everything that can be found wrong is found before the first step.
 ///
 /// # Errors
 /// Bad input, an output that cannot be written or does not fit, a device that is missing or lost, an interrupt. Then no
-/// file has changed.
+/// file at the output has changed; what is finished is kept beside it.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments.format, &arguments.out)?;
     let scene = arguments.scene.load()?;
@@ -86,6 +93,17 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = world.compiled.scene().clone();
     let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
+    let identity = work_identity(
+        "export",
+        &scene,
+        &json!({
+            "format": format!("{format:?}"),
+            "fps": arguments.fps,
+            "loop": arguments.looped,
+            "frames": [frames.first, frames.last],
+            "contract": backend.info().contract.to_string(),
+        }),
+    );
     let scene_trees = SceneTrees::of(&scene, world.compiled.forest());
     let mut observer = Observer::default();
     let solids = world.compiled.solids();
@@ -97,6 +115,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         frames,
         fps: arguments.fps,
         cancel: &cancel,
+        identity: &identity,
+        restart: arguments.restart,
     };
     let mut exporter = export::start(format, &job)?;
     let lacks_particles = format == Format::Gltf && !scene.particles.is_empty();
@@ -109,14 +129,29 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let bar = progress::bar(frames.count().into(), "frame");
     let mut clip = Clip { cancel: &cancel, backend: &mut backend, stepping: Stepping::default(), step: 0 };
-    for number in frames.first..=frames.last {
-        clip.advance(steps.before(number))?;
-        clip.backend.read_state(&mut world)?;
-        exporter.push(&observer.look(&world, number))?;
-        cancel.check()?;
-        bar.inc(1);
-    }
+    let mut write = || -> anyhow::Result<()> {
+        let first = exporter.next().unwrap_or(frames.first);
+        if first > frames.first {
+            terminal::note(&format!("going on from frame {first}, behind those of an earlier run"));
+            bar.inc((first - frames.first).into());
+        }
+        for number in first..=frames.last {
+            clip.advance(steps.before(number))?;
+            clip.backend.read_state(&mut world)?;
+            exporter.push(&observer.look(&world, number))?;
+            cancel.check()?;
+            bar.inc(1);
+        }
+        Ok(())
+    };
+    let outcome = write();
     bar.finish_and_clear();
+    if let (Err(_), Some(next)) = (cancel.check(), exporter.next())
+        && next > frames.first
+    {
+        bail!("interrupted; finished frames are kept: the same command goes on with them");
+    }
+    outcome?;
     let broken = world.stats().leaves.broken;
     if broken > 0 {
         bail!("{broken} leaves have positions that are not numbers; nothing was written");

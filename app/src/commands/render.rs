@@ -6,28 +6,32 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::{Args, ValueEnum};
+use serde_json::json;
 use windfall_core::{Scene, World};
+use windfall_render::memory_s;
+use windfall_wgpu::describe_adapter;
 
-use crate::output::{Output, Writer};
+use crate::files::Identity;
+use crate::output::{KeptClip, Output};
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
+use crate::run::frame_range::FrameRange;
 use crate::run::frame_steps::{FrameSteps, LoopFrames};
 use crate::run::looped::build_cycle;
 use crate::run::parse::whole;
 use crate::run::parse::{frame_rate, loop_length, picture_size, within};
 use crate::run::progress::{self, making_leaves};
 use crate::run::scene_arguments::SceneArguments;
+use crate::run::shots::{Shot, ShotList};
 use crate::run::sky_arguments::SkyArguments;
 use crate::run::studio::Studio;
 use crate::run::terminal;
+use crate::run::work_identity::work_identity;
 use crate::view::{Overlays, Show};
 
 /// Most steps of a clip.
 const MAX_STEPS: u64 = 1_000_000_000;
-/// Frames that are drawn before a loop and not kept, and the seconds that the lens takes each to last.
-const SETTLING_FRAMES: u32 = 6;
-const SETTLING_S: f64 = 2.0;
 /// Frames of a picture and of a clip when the user does not say.
 const DEFAULT_FRAMES: (u32, u32) = (60, 240);
 
@@ -43,9 +47,10 @@ pub struct Arguments {
     /// Output: FILE.png (the last frame), FILE.gif, FILE.mp4 (by ffmpeg), or a folder of numbered PNG files.
     #[arg(long, value_name = "FILE|DIR")]
     out: PathBuf,
-    /// Number of frames; the first shows the scene as it begins [default: 60 for a PNG file, 240 for a clip].
-    #[arg(long, value_name = "N", value_parser = whole::<u32, 1, 1_000_000>)]
-    frames: Option<u32>,
+    /// Number of frames; the first shows the scene as it begins [default: 60 for a PNG file, 240 for a clip]. Or the first and the last of
+    /// a part of a clip, both drawn and counted from 0: parts come out as the same frames of the whole do, to the pixel.
+    #[arg(long, value_name = "N|A..B", value_parser = Frames::parse, allow_hyphen_values = true)]
+    frames: Option<Frames>,
     /// Width and height in pixels [default: 1280x720, for a GIF file 640x360].
     #[arg(long, value_name = "WxH", value_parser = picture_size)]
     size: Option<(u32, u32)>,
@@ -63,41 +68,162 @@ pub struct Arguments {
     /// Overlays in the picture: leaves coloured by motion, speed, age, height, wake, depth or shelter; landings. The others are for the window.
     #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = overlay)]
     show: Vec<Show>,
+    /// Begin anew where an unfinished clip of other options or of another scene lies beside the output. Without this an unfinished clip of the
+    /// same ones is gone on with.
+    #[arg(long)]
+    restart: bool,
+}
+
+/// Frames of a clip that are asked for.
+#[derive(Clone, Copy, Debug)]
+enum Frames {
+    /// So many from the first.
+    Count(u32),
+    /// A part of the clip.
+    Part(FrameRange),
+}
+
+impl Frames {
+    fn parse(text: &str) -> Result<Self, String> {
+        match text.contains("..") {
+            true => FrameRange::parse(text).map(Self::Part),
+            false => whole::<u32, 1, 1_000_000>(text).map(Self::Count),
+        }
+    }
+}
+
+/// Steps before each frame, counted from the first that is simulated.
+#[derive(Clone, Copy, Debug)]
+enum Timeline {
+    Clip(FrameSteps),
+    /// One round of a scene that repeats, after so many frames in which it settles.
+    Round(LoopFrames, u32),
+}
+
+impl Timeline {
+    fn step(&self, number: u32) -> u64 {
+        match self {
+            Self::Clip(steps) => steps.before(number),
+            Self::Round(round, lead) => match lead.checked_sub(number) {
+                Some(before) if before > 0 => round.step_before(before),
+                _ => round.step(number - lead),
+            },
+        }
+    }
 }
 
 /// Runs the command. Everything that can be found wrong is found before the first step.
 ///
 /// # Errors
-/// Bad input, an output that cannot be written, no adapter, a lost device, an interrupt. Then no file has changed.
+/// Bad input, an output that cannot be written, no adapter, a lost device, an interrupt. Then no file at the output has changed; finished
+/// frames of a clip are kept beside it.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.sky.apply(&mut scene, arguments.scene.name())?;
     let output = Output::from_path(&arguments.out)?;
-    let size = arguments.size.unwrap_or(match output {
-        Output::Gif(_) => (640, 360),
-        _ => (1280, 720),
-    });
-    let is_still = matches!(output, Output::Png(_));
-    let frames = arguments.frames.unwrap_or(if is_still { DEFAULT_FRAMES.0 } else { DEFAULT_FRAMES.1 });
-    if let Some(seconds) = arguments.looped {
-        return render_loop(arguments, &scene, &output, size, seconds);
-    }
+    let (is_still, is_gif) = (matches!(output, Output::Png(_)), matches!(output, Output::Gif(_)));
+    let size = arguments.size.unwrap_or(if is_gif { (640, 360) } else { (1280, 720) });
+    let frames =
+        arguments.frames.unwrap_or(Frames::Count(if is_still { DEFAULT_FRAMES.0 } else { DEFAULT_FRAMES.1 }));
+    let is_part = matches!(frames, Frames::Part(_));
+    let FrameRange { mut first, mut last } = match frames {
+        Frames::Count(count) => FrameRange { first: 0, last: count - 1 },
+        Frames::Part(range) => range,
+    };
     let steps = FrameSteps::new(arguments.fps, arguments.speed, scene.dt_s);
-    let last = steps.before(frames - 1);
-    if last > MAX_STEPS {
+    if arguments.looped.is_none() && steps.before(last) > MAX_STEPS {
+        let last = steps.before(last);
         bail!("--frames, --fps and --speed ask for {last} steps; allowed: at most {MAX_STEPS}");
     }
     let cancel = Cancel::on_interrupt();
-    let mut writer = output.start(size, arguments.fps)?;
-    let mut studio = studio(arguments, &World::build_named(&scene, arguments.scene.name())?, size, &cancel)?;
-    film(&mut studio, &mut writer, steps, frames, arguments.fps, &cancel)?;
-    let path = writer.finish()?;
+    let name = arguments.scene.name();
+    let cycle = arguments.looped.map(|seconds| build_cycle(&scene, name, seconds)).transpose()?;
+    let rate = arguments.fps / arguments.speed;
+    let mut timeline = Timeline::Clip(steps);
+    if let Some((_, cycle)) = &cycle {
+        let round = LoopFrames::new(cycle, rate, scene.dt_s);
+        last = round.count() - 1;
+        timeline = Timeline::Round(round, lead_frames(&scene, arguments.fps, rate));
+    } else if is_still {
+        first = last;
+    }
+    let drawing = Drawing::without_window(&arguments.backend)?;
+    let identity = identity(arguments, &scene, &drawing, size, (first, last));
+    let part = is_part.then_some(FrameRange { first, last });
+    let mut clip = KeptClip::begin(&output, size, arguments.fps, part, (&identity, arguments.restart))?;
+    let world = match &cycle {
+        Some((world, _)) => world,
+        None => &World::build_named(&scene, name)?,
+    };
+    let mut studio = studio(arguments, world, drawing, size, &cancel)?;
+    let mut lead = 0;
+    if let (Some((_, cycle)), Timeline::Round(_, frames)) = (&cycle, timeline) {
+        let dt_s = studio.dt_s();
+        studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
+        lead = frames;
+    }
+    let shots = ShotList {
+        stride: output.stride(arguments.fps),
+        first: lead + first,
+        last: lead + last,
+        frame_s: 1.0 / arguments.fps,
+        adapts: (!is_still || is_part).then_some(scene.view.lens.exposure),
+        needs_all: !arguments.show.is_empty(),
+    };
+    let filmed = film(&mut studio, &mut clip, &shots, (&timeline, lead), 1.0 / rate, &cancel);
+    if cancel.check().is_err() {
+        let kept = (first..=last).filter(|&number| clip.has(number)).count();
+        if kept > 0 {
+            bail!(
+                "interrupted; {kept} of {} frames are kept: the same command goes on with them",
+                (last - first) / shots.stride + 1
+            );
+        }
+    }
+    filmed?;
+    let path = clip.finish((!is_part).then_some(last + 1))?;
     terminal::print(&format!("{}\n", path.display()))
 }
 
+/// Number of frames before a loop that show in its first: of trails, of motion, and of what the lens has adapted to.
+fn lead_frames(scene: &Scene, fps: f64, rate: f64) -> u32 {
+    let adapts_s = memory_s(&scene.view.lens.exposure).unwrap_or(0.0);
+    let frames = (adapts_s * fps).max(f64::from(scene.view.trail_s) * rate).ceil() + 1.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some seconds of frames")]
+    let frames = frames as u32;
+    frames
+}
+
+/// Everything that the pictures of a clip depend on.
+fn identity(
+    arguments: &Arguments,
+    scene: &Scene,
+    drawing: &Drawing,
+    (width, height): (u32, u32),
+    (first, last): (u32, u32),
+) -> Identity {
+    let shown = arguments.show.iter().map(|show| format!("{show:?}"));
+    let options = json!({
+        "size": [width, height],
+        "fps": arguments.fps,
+        "speed": arguments.speed,
+        "loop": arguments.looped,
+        "frames": [first, last],
+        "show": shown.collect::<Vec<_>>(),
+        "contract": drawing.device.contract().to_string(),
+        "adapter": describe_adapter(drawing.gpu.info()),
+    });
+    work_identity("render", scene, &options)
+}
+
 /// A studio for a world, on the devices of the options.
-fn studio(arguments: &Arguments, world: &World, size: (u32, u32), cancel: &Cancel) -> anyhow::Result<Studio> {
-    let mut drawing = Drawing::without_window(&arguments.backend)?;
+fn studio(
+    arguments: &Arguments,
+    world: &World,
+    mut drawing: Drawing,
+    size: (u32, u32),
+    cancel: &Cancel,
+) -> anyhow::Result<Studio> {
     let reason = drawing.reason.take();
     let mut studio = Studio::of_world(world, drawing, size, cancel, &making_leaves())?;
     if let Some(reason) = reason {
@@ -114,75 +240,46 @@ fn studio(arguments: &Arguments, world: &World, size: (u32, u32), cancel: &Cance
     Ok(studio)
 }
 
-/// Draws one round of a scene that repeats.
-fn render_loop(
-    arguments: &Arguments,
-    scene: &Scene,
-    output: &Output,
-    size: (u32, u32),
-    seconds: f64,
-) -> anyhow::Result<()> {
-    let rate = arguments.fps / arguments.speed;
-    let cancel = Cancel::on_interrupt();
-    let (world, cycle) = build_cycle(scene, arguments.scene.name(), seconds)?;
-    let round = LoopFrames::new(&cycle, rate, scene.dt_s);
-    let mut writer = output.start(size, arguments.fps)?;
-    let mut studio = studio(arguments, &world, size, &cancel)?;
-    let dt_s = studio.dt_s();
-    studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
-    let bar = progress::bar(round.count().into(), "frame");
-    // A metered exposure has long settled when a round begins.
-    for number in (1..=studio.remembered_frames(rate).max(SETTLING_FRAMES)).rev() {
-        studio.advance(round.step_before(number))?;
-        if number > SETTLING_FRAMES {
-            studio.observe()?;
-        } else {
-            studio.draw(SETTLING_S)?;
-        }
-    }
-    for number in 0..round.count() {
-        studio.advance(round.step(number))?;
-        if writer.wants(number, round.count()) {
-            let since = 1.0 / arguments.fps;
-            let picture = studio.draw(since);
-            cancel.check()?;
-            writer.push(&picture?)?;
-        } else {
-            writer.skip();
-        }
-        bar.inc(1);
-    }
-    bar.finish_and_clear();
-    let path = writer.finish()?;
-    terminal::print(&format!("{}\n", path.display()))
-}
-
-/// Draws the frames that will be seen, and simulates the others.
+/// Draws the frames of a clip that are not kept yet, and those before them that they depend on.
 fn film(
     studio: &mut Studio,
-    writer: &mut Writer,
-    steps: FrameSteps,
-    frames: u32,
-    fps: f64,
+    clip: &mut KeptClip,
+    shots: &ShotList,
+    (timeline, lead): (&Timeline, u32),
+    frame_s: f64,
     cancel: &Cancel,
 ) -> anyhow::Result<()> {
-    let mut drawn = None;
-    let bar = progress::bar(frames.into(), "frame");
-    let dt_s = studio.dt_s();
-    let end = steps.before(frames - 1);
-    for number in 0..frames {
-        studio.advance(steps.before(number))?;
-        if writer.wants(number, frames) {
-            let since = drawn.map_or(f64::INFINITY, |drawn| f64::from(number - drawn) / fps);
-            drawn = Some(number);
-            let picture = studio.draw(since);
-            cancel.check()?;
-            writer.push(&picture?)?;
-        } else {
-            writer.skip();
-            let ahead = end.saturating_sub(studio.step());
-            if studio.remembers(ahead as f64 * dt_s, number + 2 == frames) {
+    let shows = |ahead: u32, is_next| studio.remembers(f64::from(ahead) * frame_s, is_next);
+    let plan = shots.plan(|number| !clip.has(number - lead), shows);
+    let kept = (shots.first..=shots.last).filter(|number| clip.has(number - lead)).count();
+    if kept > 0 {
+        terminal::note(&format!("going on with {kept} frames of an earlier run"));
+    }
+    let end = plan.iter().rposition(|&shot| shot == Shot::Keep);
+    let bar = progress::bar(plan.len() as u64, "frame");
+    for (number, &shot) in (0..).zip(&plan) {
+        if end.is_some_and(|end| number as usize <= end) {
+            studio.advance(timeline.step(number))?;
+        }
+        let picture = match shot {
+            Shot::Keep | Shot::Meter => {
+                let picture = studio.draw_at(shots.moment(number));
+                cancel.check()?;
+                Some(picture?)
+            }
+            Shot::Note => {
                 studio.observe()?;
+                None
+            }
+            Shot::Pass => None,
+        };
+        match picture {
+            _ if number < shots.first => {}
+            _ if !shots.is_possible(number) => clip.skip(),
+            Some(picture) if shot == Shot::Keep => clip.push(number - lead, &picture)?,
+            _ => {
+                cancel.check()?;
+                clip.push_kept(number - lead)?;
             }
         }
         bar.inc(1);

@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall simulate`: numbers without pictures.
 
-use std::fs;
-use std::io::{BufWriter, Write};
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use clap::Args;
 use indicatif::ProgressBar;
 use windfall_core::leaf::LEAF_BYTES;
-use windfall_core::{Simulator, World};
+use windfall_core::{Contract, Simulator, World};
 
-use crate::files::{OutputFile, WriteError};
+use crate::files::{Identity, OutputFile, WriteError};
 use crate::run::backend::{Backend, BackendArguments};
+use crate::run::cancel::Cancel;
+use crate::run::kept_simulation::{KeptSimulation, write_checkpoint};
 use crate::run::memory::check_memory;
 use crate::run::parse::whole;
 use crate::run::progress;
@@ -23,6 +24,7 @@ use crate::run::stepping::Stepping;
 use crate::run::swaying::{Swaying, TreeReport};
 use crate::run::terminal;
 use crate::run::tracks::{TrackArguments, Tracks};
+use crate::run::work_identity::work_identity;
 
 /// Options of `windfall simulate`.
 #[derive(Clone, Debug, Args)]
@@ -47,56 +49,94 @@ pub struct Arguments {
     /// Go on from the state in this file, with the scene that it holds.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "leaves", "seed"])]
     resume: Option<PathBuf>,
+    /// Begin anew where an unfinished run of other options or of another scene lies beside the checkpoint or the tracks. Without this an
+    /// unfinished run of the same ones, whose state is kept every few seconds, is gone on with.
+    #[arg(long)]
+    restart: bool,
 }
 
 /// Runs the command. Everything that can be found wrong is found before the first step.
 ///
 /// # Errors
-/// Bad input, files that cannot be written, a device that is missing or lost. Then no file has changed.
+/// Bad input, files that cannot be written, a device that is missing or lost, an interrupt. Then no file at its output has changed; what is
+/// done is kept beside it.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = match &arguments.resume {
         None => Some(arguments.scene.load()?),
         Some(_) => None,
     };
     let checkpoint = arguments.checkpoint.as_deref().map(OutputFile::create).transpose()?;
+    let tracks_at = arguments.tracks.destination()?;
+    if let (Some(tracks), Some(checkpoint)) = (&tracks_at, &checkpoint)
+        && tracks == checkpoint.destination()
+    {
+        bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
+    }
     let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
         (Some(scene), _) => World::build_named(scene, arguments.scene.name())?,
         (None, path) => read_checkpoint(path.as_deref().unwrap_or(Path::new("")))?,
     };
-    let mut tracks = arguments.tracks.create(world.compiled.scene())?;
-    if let (Some(tracks), Some(checkpoint)) = (&tracks, &checkpoint)
-        && tracks.destination() == checkpoint.destination()
-    {
-        bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
+    let written = checkpoint.as_ref().map(OutputFile::destination).or(tracks_at.as_deref());
+    let mut kept = match written {
+        Some(written) => {
+            let identity = identity(arguments, &world, choice.device.contract());
+            Some(KeptSimulation::open(written, &identity, arguments.restart)?)
+        }
+        None => None,
+    };
+    let mut tracks = match (&tracks_at, &kept) {
+        (Some(path), Some(kept)) => {
+            let bytes = kept.kept().map(|kept| kept.tracks);
+            Some(arguments.tracks.grow(world.compiled.scene(), (&kept.tracks(), path), bytes)?)
+        }
+        _ => None,
+    };
+    let begun = kept.as_ref().and_then(KeptSimulation::kept).map(|kept| (kept.done, kept.swaying));
+    let swaying = begun.map_or_else(
+        || Swaying::new(&world, arguments.steps),
+        |(_, swaying)| Swaying::go_on(swaying, arguments.steps),
+    );
+    if let Some(state) = kept.as_ref().and_then(KeptSimulation::state) {
+        world = read_checkpoint(&state)?;
     }
+    let done = begun.map_or(0, |(done, _)| done);
     let mut backend = choice.device.simulator(&world)?;
     if let Some(reason) = choice.reason {
         terminal::note(&reason);
+    }
+    if done > 0 {
+        terminal::note(&format!("going on after {done} steps of an earlier run"));
     }
     let bar = match arguments.json {
         true => ProgressBar::hidden(),
         false => progress::bar(arguments.steps.into(), "step"),
     };
-    let (stepping, trees) = simulate(&mut backend, &mut world, arguments.steps, tracks.as_mut(), &bar)?;
+    bar.inc(done.into());
+    let mut run = Run { backend: &mut backend, tracks: tracks.as_mut(), kept: kept.as_mut(), swaying, done };
+    let (stepping, trees) = run.simulate(&mut world, arguments.steps, &bar)?;
     bar.finish_and_clear();
 
     let stats = world.stats();
     if stats.leaves.broken > 0 {
+        // The same command would come to the same.
+        kept.into_iter().for_each(KeptSimulation::finish);
         bail!("{} leaves have positions that are not numbers; nothing was written", stats.leaves.broken);
     }
     let name = match &scene {
         Some(_) => arguments.scene.name().to_owned(),
         None => world.compiled.scene().name.clone(),
     };
-    let report = Report::new(name, &backend, &world, arguments.steps, &stepping, trees);
+    let report = Report::new(name, &backend, &world, (arguments.steps, done), &stepping, trees);
     // The state first: it is what cannot be had again without the whole run.
     if let Some(file) = checkpoint {
         write_checkpoint(&world, file)?;
     }
-    if let Some(tracks) = tracks {
-        tracks.finish()?;
+    if let (Some(mut tracks), Some(path), Some(kept)) = (tracks, &tracks_at, &kept) {
+        tracks.complete()?;
+        fs::rename(kept.tracks(), path).map_err(WriteError::at(path))?;
     }
+    kept.into_iter().for_each(KeptSimulation::finish);
     if arguments.json {
         terminal::print(&format!("{}\n", serde_json::to_string(&report)?))
     } else {
@@ -104,41 +144,82 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
 }
 
-/// Steps, sampling tracks and trees on the way; leaves the last state in `world`.
-fn simulate(
-    backend: &mut Backend,
-    world: &mut World,
-    steps: u32,
-    mut tracks: Option<&mut Tracks>,
-    bar: &ProgressBar,
-) -> anyhow::Result<(Stepping, TreeReport)> {
-    let mut stepping = Stepping::default();
-    let mut swaying = Swaying::new(world, steps);
-    let mut left = steps;
-    loop {
-        if let Some(tracks) = tracks.as_deref_mut().filter(|tracks| tracks.wait(backend.clock().step()) == 0)
-        {
-            backend.read_state(world)?;
-            tracks.sample(world)?;
-        }
-        if left == 0 {
-            break;
-        }
-        if swaying.wait(left) == Some(0) {
-            backend.read_state(world)?;
-            swaying.look(world);
-        }
-        let mut batch = stepping.batch().min(left).min(swaying.wait(left).unwrap_or(left).max(1));
-        if let Some(tracks) = tracks.as_deref() {
-            // The step just sampled is not due again.
-            batch = batch.min(tracks.wait(backend.clock().step().wrapping_add(1)) + 1);
-        }
-        stepping.run(backend, batch)?;
-        left -= batch;
-        bar.inc(batch.into());
+/// Everything that the result depends on.
+fn identity(arguments: &Arguments, world: &World, contract: Contract) -> Identity {
+    let mut options = arguments.tracks.identity();
+    if let Some(options) = options.as_object_mut() {
+        options.insert("steps".into(), arguments.steps.into());
+        options.insert("contract".into(), contract.to_string().into());
+        // Of a checkpoint that is gone on from.
+        options.insert("state".into(), format!("{:016x}", world.state_hash()).into());
     }
-    backend.read_state(world)?;
-    Ok((stepping, swaying.finish(world)))
+    work_identity("simulate", world.compiled.scene(), &options)
+}
+
+/// A run on its way.
+struct Run<'a> {
+    backend: &'a mut Backend,
+    tracks: Option<&'a mut Tracks<File>>,
+    kept: Option<&'a mut KeptSimulation>,
+    swaying: Swaying,
+    /// Steps that are done.
+    done: u32,
+}
+
+impl Run<'_> {
+    /// Steps until `steps` are done, sampling tracks and trees on the way; leaves the last state in `world`.
+    fn simulate(
+        &mut self,
+        world: &mut World,
+        steps: u32,
+        bar: &ProgressBar,
+    ) -> anyhow::Result<(Stepping, TreeReport)> {
+        let mut stepping = Stepping::default();
+        // Without anything kept an interrupt ends the program at once.
+        let cancel = if self.kept.is_some() { Cancel::on_interrupt() } else { Cancel::default() };
+        loop {
+            let left = steps - self.done;
+            let step = self.backend.clock().step();
+            if let Some(tracks) = self.tracks.as_deref_mut().filter(|tracks| tracks.wait(step) == 0) {
+                self.backend.read_state(world)?;
+                tracks.sample(world)?;
+            }
+            if left == 0 {
+                break;
+            }
+            if self.swaying.wait(left) == Some(0) {
+                self.backend.read_state(world)?;
+                self.swaying.look(world);
+            }
+            let mut batch = stepping.batch().min(left).min(self.swaying.wait(left).unwrap_or(left).max(1));
+            if let Some(tracks) = self.tracks.as_deref() {
+                // The step just sampled is not due again.
+                batch = batch.min(tracks.wait(step.wrapping_add(1)) + 1);
+            }
+            stepping.run(self.backend, batch)?;
+            self.done += batch;
+            bar.inc(batch.into());
+            self.keep(world, &cancel)?;
+        }
+        self.backend.read_state(world)?;
+        Ok((stepping, self.swaying.finish(world)))
+    }
+
+    /// Keeps the state if it is time, or the user wants to end.
+    fn keep(&mut self, world: &mut World, cancel: &Cancel) -> anyhow::Result<()> {
+        let Some(kept) = self.kept.as_deref_mut() else { return Ok(()) };
+        let is_ending = cancel.check().is_err();
+        if !is_ending && !kept.is_due() {
+            return Ok(());
+        }
+        self.backend.read_state(world)?;
+        let tracks = self.tracks.as_deref_mut().map_or(Ok(0), Tracks::written)?;
+        kept.keep(world, self.done, tracks, &self.swaying)?;
+        if is_ending {
+            bail!("interrupted; {} steps are kept: the same command goes on with them", self.done);
+        }
+        Ok(())
+    }
 }
 
 fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
@@ -153,11 +234,4 @@ fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
     check_memory(&name, u32::try_from(leaves).unwrap_or(u32::MAX))?;
     let bytes = fs::read(path).map_err(|error| fail(&error))?;
     Ok(World::from_checkpoint(&bytes, &name)?)
-}
-
-fn write_checkpoint(world: &World, file: OutputFile) -> anyhow::Result<()> {
-    let path = file.destination().to_owned();
-    let mut out = BufWriter::new(file);
-    world.write_checkpoint(&mut out).and_then(|()| out.flush()).map_err(WriteError::at(&path))?;
-    Ok(out.into_inner().map_err(|error| WriteError::at(&path)(error.into_error()))?.finish()?)
 }

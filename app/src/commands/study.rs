@@ -9,7 +9,6 @@ use std::thread;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use windfall_core::Contract;
 use windfall_cpu::CpuOptions;
 
 use crate::leaves::load_scene;
@@ -87,10 +86,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let most = points.iter().map(|point| point.scene.leaf_count()).max().unwrap_or(0);
     check_memory(name, most)?;
     let device = arguments.backend.or_cpu()?;
-    let contract = match &device {
-        Device::Cpu(_) => Contract::Exact,
-        Device::Wgpu(gpu) => gpu.contract(),
-    };
+    let contract = device.contract();
     let cancel = Cancel::on_interrupt();
     let folder = StudyFolder::open(&arguments.out, &scene, &arguments.vary, &options, contract)?;
     let summaries = work(&folder, &points, &device, &options, &cancel)?;

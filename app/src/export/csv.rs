@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tables of comma-separated values: a row for every leaf of every frame, and in a second one, beside it, for every living particle.
 
+use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
 use windfall_core::leaf::LeafState;
 
 use super::{Exporter, Frame, FrameLeaf, Job};
-use crate::files::{CsvFile, WriteError};
+use crate::files::{CsvFile, OutputFile, UnfinishedWork, WriteError};
 use crate::run::leaf_row::{LeafRow, header};
 use crate::run::live_particle;
 
@@ -16,6 +18,10 @@ use crate::run::live_particle;
 const BEFORE: [&str; 3] = ["frame", "step", "time_s"];
 /// Columns behind those of the leaf.
 const AFTER: [&str; 1] = ["size_m"];
+
+/// Names of the tables while they are in the making.
+const LEAVES: &str = "leaves.csv";
+const PARTICLES: &str = "particles.csv";
 
 /// Bytes of a row of a leaf, about.
 pub(super) const ROW_BYTES: u64 = 170;
@@ -25,18 +31,47 @@ pub(super) const PARTICLE_BYTES: u64 = 130;
 /// Tables in the making.
 #[derive(Debug)]
 pub(super) struct CsvExport {
-    leaves: CsvFile,
+    work: UnfinishedWork,
+    path: PathBuf,
+    leaves: CsvFile<File>,
     /// That of particles, if the scene has any.
-    particles: Option<CsvFile>,
+    particles: Option<CsvFile<File>>,
+    next: u32,
+}
+
+/// Bytes of the tables up to a frame.
+#[derive(Debug, Serialize, Deserialize)]
+struct Written {
+    /// The frame behind them.
+    next: u32,
+    leaves: u64,
+    particles: u64,
 }
 
 impl CsvExport {
-    /// Begins the tables.
+    /// Begins the tables, or goes on with them.
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
-        let leaves = CsvFile::create(job.path, &header(&BEFORE, &AFTER))?;
+        let beside = particle_path(job.path);
         let has_particles = !job.scene.particles.is_empty();
-        let begin = || CsvFile::create(&particle_path(job.path), &live_particle::header(&BEFORE));
-        Ok(Self { leaves, particles: has_particles.then(begin).transpose()? })
+        // Finds what is wrong with the places. Links stay links.
+        let path = OutputFile::create(job.path)?.destination().to_owned();
+        has_particles.then(|| OutputFile::create(&beside)).transpose()?;
+        let work = UnfinishedWork::open(job.path, job.identity, job.restart)?.by_progress();
+        // A run that ended while it moved its tables begins anew.
+        let bytes = |name| fs::metadata(work.parts().join(name)).map_or(0, |file| file.len());
+        let is_whole = |kept: &Written| kept.leaves <= bytes(LEAVES) && kept.particles <= bytes(PARTICLES);
+        let kept: Option<Written> = work.progress().filter(is_whole);
+        let kept = kept.as_ref();
+        let leaves_kept = kept.map(|kept| kept.leaves);
+        let leaves =
+            CsvFile::grow(&work.parts().join(LEAVES), job.path, &header(&BEFORE, &AFTER), leaves_kept)?;
+        let begin = || {
+            let part = work.parts().join(PARTICLES);
+            CsvFile::grow(&part, &beside, &live_particle::header(&BEFORE), kept.map(|kept| kept.particles))
+        };
+        let particles = has_particles.then(begin).transpose()?;
+        let next = kept.map_or(job.frames.first, |kept| kept.next);
+        Ok(Self { work, path, leaves, particles, next })
     }
 }
 
@@ -48,18 +83,31 @@ fn particle_path(path: &Path) -> PathBuf {
 }
 
 impl Exporter for CsvExport {
+    fn next(&self) -> Option<u32> {
+        Some(self.next)
+    }
+
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
         write_frame(&mut self.leaves, frame)?;
         if let Some(table) = &mut self.particles {
             write_particles(table, frame)?;
         }
-        Ok(())
+        self.next = frame.number + 1;
+        let particles = self.particles.as_mut().map_or(Ok(0), CsvFile::written)?;
+        let written = Written { next: self.next, leaves: self.leaves.written()?, particles };
+        Ok(self.work.note_progress(&written)?)
     }
 
-    fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {
-        let path = self.leaves.destination().to_owned();
-        self.particles.map(CsvFile::finish).transpose()?;
-        self.leaves.finish()?;
+    fn finish(mut self: Box<Self>) -> anyhow::Result<PathBuf> {
+        if let Some(table) = &mut self.particles {
+            table.complete()?;
+            let to = particle_path(&self.path);
+            fs::rename(self.work.parts().join(PARTICLES), &to).map_err(WriteError::at(&to))?;
+        }
+        self.leaves.complete()?;
+        fs::rename(self.work.parts().join(LEAVES), &self.path).map_err(WriteError::at(&self.path))?;
+        let Self { work, path, .. } = *self;
+        work.finish();
         Ok(path)
     }
 }

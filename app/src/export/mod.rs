@@ -3,7 +3,7 @@
 //! A scene's motion for other programs: USD, glTF, a table and point clouds, fed frame by frame.
 //!
 //! Every writer works beside its destination and renames at the end, so an interrupted or failed run leaves nothing
-//! half-written behind. `docs/exchange.md` describes for users what is written.
+//! half-written behind. Of long exports finished parts are kept there, and the same export goes on behind them. `docs/exchange.md` describes for users what is written.
 
 mod blob_mesh;
 mod csv;
@@ -15,7 +15,6 @@ mod gltf;
 mod leaf_mesh;
 mod plain;
 mod ply;
-mod range;
 mod snow_mesh;
 mod solids;
 mod space;
@@ -28,13 +27,14 @@ use std::path::{Path, PathBuf};
 pub(crate) use format::Format;
 pub(crate) use frame::Observer;
 pub(crate) use frame::{Frame, FrameLeaf};
-pub(crate) use range::FrameRange;
 pub(crate) use space::{Content, Estimate, check_space};
 use windfall_core::Scene;
 use windfall_core::solid::Solid;
 use windfall_render::trees::SceneTrees;
 
+use crate::files::Identity;
 use crate::run::cancel::Cancel;
+use crate::run::frame_range::FrameRange;
 
 /// An export to be written.
 #[derive(Clone, Copy, Debug)]
@@ -53,10 +53,20 @@ pub(crate) struct Job<'a> {
     pub fps: f64,
     /// Request to end.
     pub cancel: &'a Cancel,
+    /// Everything that the result depends on.
+    pub identity: &'a Identity,
+    /// Throws unfinished work away.
+    pub restart: bool,
 }
 
-/// Takes the frames of one export in their order. Dropped without [`Exporter::finish`], it removes what it wrote.
+/// Takes the frames of one export in their order. Dropped without [`Exporter::finish`], it keeps what is finished where the format has
+/// parts that can be, and removes the rest.
 pub(crate) trait Exporter {
+    /// First frame that it has not got, where those before it can be kept for a later run; a format that has everything together keeps none.
+    fn next(&self) -> Option<u32> {
+        None
+    }
+
     /// Takes the next frame.
     ///
     /// # Errors
@@ -79,6 +89,6 @@ pub(crate) fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exp
         Format::Csv => Box::new(csv::CsvExport::start(job)?),
         Format::Usd => Box::new(usd::UsdExport::start(job)?),
         Format::Gltf => gltf::start(job)?,
-        Format::Ply => Box::new(ply::PlyExport::start(job.path)?),
+        Format::Ply => Box::new(ply::PlyExport::start(job)?),
     })
 }

@@ -5,18 +5,17 @@
 //! snow that lies.
 
 use std::fmt::Write as _;
-use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::iter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::{Quat, Vec3};
 use windfall_core::leaf::LeafState;
 
 use super::blob_mesh::{blob_mesh, is_blobs};
 use super::snow_mesh::{SNOW, SnowMesh, cover};
-use super::{Exporter, Frame, FrameLeaf};
-use crate::files::{OutputFolder, WriteError};
+use super::{Exporter, Frame, FrameLeaf, Job};
+use crate::files::{OutputFile, OutputFolder, UnfinishedWork, WriteError};
 
 /// Floats of a leaf's vertex, in their order.
 const FLOATS: [&str; 14] =
@@ -46,52 +45,68 @@ pub(super) const SNOW_BYTES: u64 = 4 * SNOW_FLOATS.len() as u64 + 4 + 2 * (1 + 3
 /// Point clouds in the making.
 #[derive(Debug)]
 pub(super) struct PlyExport {
-    folder: OutputFolder,
+    work: UnfinishedWork,
+    next: u32,
 }
 
 impl PlyExport {
-    /// Begins the folder.
-    pub(super) fn start(path: &Path) -> anyhow::Result<Self> {
-        Ok(Self { folder: OutputFolder::create(path)? })
+    /// Begins the folder, or goes on behind the frames that are there.
+    pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
+        // Finds what is wrong with the place.
+        drop(OutputFolder::create(job.path)?);
+        let work = UnfinishedWork::open(job.path, job.identity, job.restart)?;
+        let is_there = |number: &u32| work.part(&file_name("frame", *number)).is_some();
+        let frames = job.frames;
+        let next = (frames.first..=frames.last).find(|number| !is_there(number)).unwrap_or(frames.last + 1);
+        Ok(Self { work, next })
+    }
+
+    /// Writes a file of this kind.
+    fn write(
+        &self,
+        kind: &str,
+        frame: &Frame<'_>,
+        write: impl FnOnce(&mut BufWriter<OutputFile>, &Frame<'_>) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
+        let path = self.work.parts().join(file_name(kind, frame.number));
+        let mut out = BufWriter::new(OutputFile::create(&path)?);
+        let written =
+            write(&mut out, frame).and_then(|()| out.into_inner().map_err(|error| error.into_error()));
+        written.map_err(WriteError::at(self.work.destination()))?.finish()
     }
 }
 
+/// Name of a file of a frame.
+fn file_name(kind: &str, number: u32) -> String {
+    format!("{kind}_{number:06}.ply")
+}
+
 impl Exporter for PlyExport {
+    fn next(&self) -> Option<u32> {
+        Some(self.next)
+    }
+
+    /// Leaves last: they say that the frame is complete.
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
-        let path = |kind| self.folder.partial().join(format!("{kind}_{:06}.ply", frame.number));
-        let mut written = File::create(path("frame")).and_then(|file| {
-            let mut out = BufWriter::new(file);
-            write_frame(&mut out, frame)?;
-            out.flush()
-        });
-        if written.is_ok() && !frame.world.compiled.scene().particles.is_empty() {
-            written = File::create(path("particles")).and_then(|file| {
-                let mut out = BufWriter::new(file);
-                write_particles(&mut out, frame)?;
-                out.flush()
-            });
+        let scene = frame.world.compiled.scene();
+        if !scene.particles.is_empty() {
+            self.write("particles", frame, write_particles)?;
         }
-        if written.is_ok() && frame.world.compiled.scene().particles.iter().any(is_blobs) {
-            written = File::create(path("blobs")).and_then(|file| {
-                let mut out = BufWriter::new(file);
-                write_blobs(&mut out, frame)?;
-                out.flush()
-            });
+        if scene.particles.iter().any(is_blobs) {
+            self.write("blobs", frame, write_blobs)?;
         }
-        if written.is_ok() && frame.world.compiled.scene().weather.is_some() {
-            written = File::create(path("snow")).and_then(|file| {
-                let mut out = BufWriter::new(file);
-                write_snow(&mut out, frame)?;
-                out.flush()
-            });
+        if scene.weather.is_some() {
+            self.write("snow", frame, write_snow)?;
         }
-        Ok(written.map_err(WriteError::at(self.folder.destination()))?)
+        self.write("frame", frame, write_frame)?;
+        self.next = frame.number + 1;
+        Ok(())
     }
 
     /// Moves the folder into place; into one that is already there, frame by frame. Whatever else lies there stays.
     fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {
-        let path = self.folder.destination().to_owned();
-        self.folder.finish("")?;
+        let path = self.work.destination().to_owned();
+        self.work.finish_in_folder("")?;
         Ok(path)
     }
 }

@@ -11,7 +11,8 @@ use windfall_core::particle::history_runs;
 
 use super::blob_mesh::is_blobs;
 use super::snow_mesh::cell_count;
-use super::{Format, FrameRange, csv, gltf, ply, usd};
+use super::{Format, csv, gltf, ply, usd};
+use crate::run::frame_range::FrameRange;
 
 /// Bytes from which a note says how much it will be.
 const LARGE: u64 = 1_000_000_000;

@@ -3,7 +3,8 @@
 //! A table of comma-separated values (RFC 4180).
 
 use std::fmt::{Display, Write as _};
-use std::io::{self, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::{OutputFile, WriteError};
@@ -29,11 +30,6 @@ impl CsvFile {
         Self::new(OutputFile::create(path)?, path, header)
     }
 
-    /// Path that it will lie at.
-    pub(crate) fn destination(&self) -> &Path {
-        self.out.get_ref().destination()
-    }
-
     /// Completes the table under its own name.
     ///
     /// # Errors
@@ -45,15 +41,56 @@ impl CsvFile {
     }
 }
 
+impl CsvFile<File> {
+    /// Goes on with a table in `part` behind its first `kept` bytes, or begins it; errors name `path`.
+    ///
+    /// # Errors
+    /// Errors of the system.
+    pub(crate) fn grow(
+        part: &Path,
+        path: &Path,
+        header: &[&str],
+        kept: Option<u64>,
+    ) -> Result<Self, WriteError> {
+        let fail = WriteError::at(path);
+        let Some(kept) = kept else { return Self::new(File::create(part).map_err(fail)?, path, header) };
+        let mut file = OpenOptions::new().write(true).open(part).map_err(&fail)?;
+        file.set_len(kept).and_then(|()| file.seek(SeekFrom::End(0))).map_err(&fail)?;
+        Ok(Self::with_rows(file, path))
+    }
+
+    /// Writes all rows that are still waiting, and returns the bytes of the table.
+    ///
+    /// # Errors
+    /// Errors of the system.
+    pub(crate) fn written(&mut self) -> Result<u64, WriteError> {
+        self.flush()?;
+        self.out.get_ref().metadata().map(|file| file.len()).map_err(WriteError::at(&self.path))
+    }
+
+    /// Brings a table that grew to the disk.
+    ///
+    /// # Errors
+    /// Errors of the system.
+    pub(crate) fn complete(&mut self) -> Result<(), WriteError> {
+        self.flush()?;
+        self.out.get_ref().sync_all().map_err(WriteError::at(&self.path))
+    }
+}
+
 impl<W: Write> CsvFile<W> {
+    /// A table on `out`, which has its header.
+    fn with_rows(out: W, path: &Path) -> Self {
+        let out = csv::WriterBuilder::new().buffer_capacity(BUFFER_BYTES).from_writer(out);
+        Self { path: path.to_owned(), out, row: csv::StringRecord::new(), text: String::new() }
+    }
+
     /// Begins a table on `out`; errors name `path`.
     ///
     /// # Errors
     /// Errors of the system.
     pub(crate) fn new(out: W, path: &Path, header: &[&str]) -> Result<Self, WriteError> {
-        let out = csv::WriterBuilder::new().buffer_capacity(BUFFER_BYTES).from_writer(out);
-        let mut table =
-            Self { path: path.to_owned(), out, row: csv::StringRecord::new(), text: String::new() };
+        let mut table = Self::with_rows(out, path);
         for name in header {
             table.field(name);
         }
@@ -65,7 +102,6 @@ impl<W: Write> CsvFile<W> {
     ///
     /// # Errors
     /// Errors of the system.
-    #[cfg(test)]
     pub(crate) fn flush(&mut self) -> Result<(), WriteError> {
         self.out.flush().map_err(WriteError::at(&self.path))
     }

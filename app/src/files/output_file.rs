@@ -13,6 +13,7 @@ use tempfile::NamedTempFile;
 
 use super::WriteError;
 use super::parents::{MadeFolders, parent};
+use super::partial::{ENDING, hold, remove_dead};
 
 /// A file in the making. Dropped without [`OutputFile::finish`], it leaves no trace, and what lay at its destination
 /// stays as it was.
@@ -45,8 +46,9 @@ impl OutputFile {
         let mut prefix = OsString::from(".");
         prefix.push(name);
         prefix.push(".");
+        remove_dead(folder, &prefix);
         // Other programs take the format from the ending.
-        let mut suffix = OsString::from(".partial");
+        let mut suffix = OsString::from(ENDING);
         if let Some(ending) = destination.extension() {
             suffix.push(".");
             suffix.push(ending);
@@ -56,7 +58,12 @@ impl OutputFile {
         // Permissions of any other file: the user's mask takes its bits away.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let partial = builder.tempfile_in(folder).map_err(WriteError::at(path))?;
+        let partial = loop {
+            let partial = builder.tempfile_in(folder).map_err(WriteError::at(path))?;
+            if hold(partial.as_file(), partial.path()) {
+                break partial;
+            }
+        };
         Ok(Self { destination, partial, _made: MadeFolders::default() })
     }
 

@@ -3,7 +3,7 @@
 //! A folder that is filled out of sight and appears when it is complete.
 
 use std::ffi::OsString;
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -11,12 +11,15 @@ use tempfile::TempDir;
 
 use super::WriteError;
 use super::parents::{MadeFolders, parent};
+use super::partial::{ENDING, hold, remove_dead};
 
 /// A folder in the making. Dropped without [`OutputFolder::finish`], it leaves no trace.
 #[derive(Debug)]
 pub(crate) struct OutputFolder {
     destination: PathBuf,
     partial: TempDir,
+    /// Says that somebody is at work on it.
+    _lock: Option<File>,
     /// Go after the folder in them.
     _made: MadeFolders,
 }
@@ -37,13 +40,21 @@ impl OutputFolder {
         let mut prefix = OsString::from(".");
         prefix.push(name);
         prefix.push(".");
+        remove_dead(parent(path), &prefix);
         let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix).suffix(".partial");
+        builder.prefix(&prefix).suffix(ENDING);
         // Permissions of any other folder: the user's mask takes its bits away.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-        let partial = builder.tempdir_in(parent(path)).map_err(WriteError::at(path))?;
-        Ok(Self { destination: path.to_owned(), partial, _made: made })
+        let (partial, lock) = loop {
+            let partial = builder.tempdir_in(parent(path)).map_err(WriteError::at(path))?;
+            // Only on Unix can a folder be opened, and only there is the lock needed.
+            let lock = File::open(partial.path()).ok();
+            if lock.as_ref().is_none_or(|lock| hold(lock, partial.path())) {
+                break (partial, lock);
+            }
+        };
+        Ok(Self { destination: path.to_owned(), partial, _lock: lock, _made: made })
     }
 
     /// Path to write to for now.
@@ -65,28 +76,7 @@ impl OutputFolder {
         if !self.destination.exists() {
             return self.move_whole();
         }
-        let mut names = Vec::new();
-        for entry in fs::read_dir(self.partial()).map_err(WriteError::at(&self.destination))? {
-            names.push(entry.map_err(WriteError::at(&self.destination))?.file_name());
-        }
-        names.sort_by_key(|name| (name == last, name.clone()));
-        // Found before anything has moved: a file does not replace a folder, which may hold anything.
-        for name in &names {
-            let path = self.destination.join(name);
-            if path.is_dir() && !self.partial().join(name).is_dir() {
-                return Err(WriteError::at(&path)(io::Error::other(
-                    "something that is not a file lies there",
-                )));
-            }
-        }
-        for name in names {
-            let path = self.destination.join(&name);
-            if path.is_dir() {
-                fs::remove_dir_all(&path).map_err(WriteError::at(&path))?;
-            }
-            fs::rename(self.partial().join(&name), &path).map_err(WriteError::at(&path))?;
-        }
-        Ok(())
+        move_files(self.partial(), &self.destination, last)
     }
 
     /// Gives the whole folder its name.
@@ -96,6 +86,33 @@ impl OutputFolder {
         self.partial.disable_cleanup(true);
         Ok(())
     }
+}
+
+/// Moves each file of a folder into another one, that named `last` after all others.
+///
+/// # Errors
+/// Errors of the system.
+pub(super) fn move_files(from: &Path, to: &Path, last: &str) -> Result<(), WriteError> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(from).map_err(WriteError::at(to))? {
+        names.push(entry.map_err(WriteError::at(to))?.file_name());
+    }
+    names.sort_by_key(|name| (name == last, name.clone()));
+    // Found before anything has moved: a file does not replace a folder, which may hold anything.
+    for name in &names {
+        let path = to.join(name);
+        if path.is_dir() && !from.join(name).is_dir() {
+            return Err(WriteError::at(&path)(io::Error::other("something that is not a file lies there")));
+        }
+    }
+    for name in names {
+        let path = to.join(&name);
+        if path.is_dir() {
+            fs::remove_dir_all(&path).map_err(WriteError::at(&path))?;
+        }
+        fs::rename(from.join(&name), &path).map_err(WriteError::at(&path))?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

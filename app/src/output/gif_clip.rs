@@ -64,7 +64,7 @@ impl GifClip {
     }
 
     /// Returns true if the next frame is one of those that are kept.
-    pub(super) fn wants_next(&self) -> bool {
+    fn wants_next(&self) -> bool {
         self.pushed.is_multiple_of(self.step)
     }
 
@@ -179,7 +179,7 @@ fn cut_out(changed: &[u8], width: u16, delay: u16) -> Frame<'static> {
 
 /// Keeps every n-th frame so that at most `MAX_FPS` remain.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "fps is at most 1000")]
-fn frame_step(fps: f64) -> u32 {
+pub(super) fn frame_step(fps: f64) -> u32 {
     (fps / MAX_FPS).ceil().max(1.0) as u32
 }
 

@@ -3,10 +3,11 @@
 //! Writers of pictures and clips, fed frame by frame.
 //!
 //! Every writer works beside its destination and renames at the end, so an interrupted or failed run leaves no
-//! half-written file behind.
+//! half-written file behind. What is long in the making keeps its frames there ([`KeptClip`]).
 
 mod error;
 mod gif_clip;
+mod kept_clip;
 mod palette;
 mod png_sequence;
 mod still;
@@ -19,6 +20,7 @@ use image::RgbaImage;
 
 pub(crate) use error::OutputError;
 use gif_clip::GifClip;
+pub(crate) use kept_clip::KeptClip;
 use png_sequence::PngSequence;
 use still::Still;
 use video::Video;
@@ -69,6 +71,11 @@ impl Output {
         Ok(Writer { path: self.path().to_owned(), kind, size, frames: 0 })
     }
 
+    /// Every how many frames one is seen: a GIF file thins them out.
+    pub(crate) fn stride(&self, fps: f64) -> u32 {
+        if let Self::Gif(_) = self { gif_clip::frame_step(fps) } else { 1 }
+    }
+
     /// Path that the result will lie at.
     pub(crate) fn path(&self) -> &Path {
         match self {
@@ -110,15 +117,6 @@ impl Writer {
             Kind::Sequence(sequence) => sequence.push(frame),
             Kind::Gif(clip) => clip.push(frame),
             Kind::Mp4(video) => video.push(frame),
-        }
-    }
-
-    /// Returns true if frame `number`, counted from 0, of `count` frames will be seen: the others may be skipped.
-    pub(crate) fn wants(&self, number: u32, count: u32) -> bool {
-        match &self.kind {
-            Kind::Png(_) => number + 1 == count,
-            Kind::Gif(clip) => clip.wants_next(),
-            Kind::Sequence(_) | Kind::Mp4(_) => true,
         }
     }
 

@@ -24,8 +24,9 @@ impl PngSequence {
     }
 
     pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
+        let path = self.folder.partial().join(file_name(self.count));
         self.count += 1;
-        save_png(frame, &self.folder.partial().join(name(self.count)), self.folder.destination())
+        save_png(frame, &path, self.folder.destination())
     }
 
     /// Moves the directory into place; into one that is already there, frame by frame. Frames of an earlier, longer
@@ -33,14 +34,20 @@ impl PngSequence {
     pub(super) fn finish(self) -> Result<(), OutputError> {
         let destination = self.folder.destination().to_owned();
         self.folder.finish("")?;
-        let stale = (self.count + 1..).map(|number| destination.join(name(number)));
-        for path in stale.take_while(|path| path.exists()) {
-            fs::remove_file(path).map_err(WriteError::at(&destination))?;
-        }
-        Ok(())
+        remove_stale(&destination, self.count)
     }
 }
 
-fn name(number: u32) -> String {
-    format!("frame_{number:04}.png")
+/// Removes the frames behind the first `count` that an earlier, longer clip has left in a folder.
+pub(super) fn remove_stale(folder: &Path, count: u32) -> Result<(), OutputError> {
+    let stale = (count..).map(|number| folder.join(file_name(number)));
+    for path in stale.take_while(|path| path.exists()) {
+        fs::remove_file(path).map_err(WriteError::at(folder))?;
+    }
+    Ok(())
+}
+
+/// Name of the file of a frame, counted from 0.
+pub(super) fn file_name(number: u32) -> String {
+    format!("frame_{:04}.png", u64::from(number) + 1)
 }

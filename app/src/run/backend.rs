@@ -11,7 +11,7 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 use windfall_core::leaf::Leaves;
 use windfall_core::particle::ParticleStore;
-use windfall_core::{Clock, CompiledScene, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{
     Gpu, WgpuOptions, WgpuSimulator, WorldBuffers, WorldColumns, describe_adapter, instance_descriptor,
@@ -151,6 +151,14 @@ pub enum Device {
 }
 
 impl Device {
+    /// Agreement of its states with the oracle's.
+    pub fn contract(&self) -> Contract {
+        match self {
+            Self::Cpu(_) => Contract::Exact,
+            Self::Wgpu(gpu) => gpu.contract(),
+        }
+    }
+
     /// A simulator with a copy of the world.
     ///
     /// # Errors

@@ -162,12 +162,12 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    /// The outcome of `steps` steps that led to `world`.
+    /// The outcome of `steps` steps that led to `world`, the first `earlier` of which another run has done.
     pub(crate) fn new(
         scene: String,
         simulator: &dyn Simulator,
         world: &World,
-        steps: u32,
+        (steps, earlier): (u32, u32),
         stepping: &Stepping,
         trees: TreeReport,
     ) -> Self {
@@ -193,7 +193,7 @@ impl Report {
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
-            leaf_steps_per_s: stepping.rate(world.compiled.scene().leaf_count(), steps),
+            leaf_steps_per_s: stepping.rate(world.compiled.scene().leaf_count(), steps - earlier),
             cpu_s: stepping.cpu.as_secs_f64(),
             bytes_per_leaf: LEAF_BYTES,
         }

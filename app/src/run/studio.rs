@@ -6,7 +6,9 @@ use windfall_core::scene::{CameraKey, camera_at};
 use windfall_core::{CompiledScene, Scene, Simulator, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, Paint, PictureTarget, RenderScene, Renderer, RendererOptions, ShelterMap};
+use windfall_render::{
+    FrameInput, LensMoment, Paint, PictureTarget, RenderScene, Renderer, RendererOptions, ShelterMap,
+};
 use windfall_texgen::Atlas;
 use windfall_wgpu::Gpu;
 
@@ -29,6 +31,8 @@ pub struct Studio {
     trail_s: f64,
     is_moving: bool,
     stepping: Stepping,
+    /// Moment of the last picture for the lens.
+    moment: Option<LensMoment>,
     /// Steps done.
     step: u64,
 }
@@ -89,6 +93,7 @@ impl Studio {
             trail_s: scene.view.trail_s.into(),
             is_moving: scene.view.lens.shutter_s > 0.0,
             stepping: Stepping::default(),
+            moment: None,
             step: 0,
         })
     }
@@ -103,20 +108,10 @@ impl Studio {
         self.step
     }
 
-    /// Number of frames at `rate` before a picture that show in it.
-    pub fn remembered_frames(&self, rate: f64) -> u32 {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a few seconds of frames"
-        )]
-        let trail = (self.trail_s * rate).ceil() as u32;
-        trail.max(u32::from(self.is_moving))
-    }
-
     /// Returns true if a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
     pub fn remembers(&self, seconds: f64, is_next: bool) -> bool {
-        self.trail_s > 0.0 && seconds <= self.trail_s || self.is_moving && is_next
+        // The ring of trails has a sample more than their length.
+        self.trail_s > 0.0 && seconds <= 1.1 * self.trail_s || self.is_moving && is_next
     }
 
     /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still: for clips without a seam.
@@ -163,10 +158,18 @@ impl Studio {
     /// # Errors
     /// A lost device.
     pub fn draw(&mut self, since_s: f64) -> anyhow::Result<image::RgbaImage> {
+        self.draw_at(self.moment.map_or(LensMoment::FIRST, |moment| moment.after(since_s)))
+    }
+
+    /// The picture as it is, at a moment of the lens.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn draw_at(&mut self, moment: LensMoment) -> anyhow::Result<image::RgbaImage> {
+        self.moment = Some(moment);
         let time_s = self.backend.clock().seconds();
         let camera = camera_at(&self.path, time_s).as_ref().map_or(self.camera, Camera::from);
-        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
-        let input = FrameInput { camera, time_s, since_s: since_s as f32, origin: (0, 0) };
+        let input = FrameInput { camera, time_s, moment, origin: (0, 0) };
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Report of the trees of a scene during a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use windfall_core::World;
 use windfall_core::tree::SwayExtent;
 
@@ -33,11 +33,33 @@ pub(crate) struct Swaying {
     looks: u32,
 }
 
+/// Findings on the trees in part of a run.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct KeptSwaying {
+    falls: u64,
+    /// Bits of the largest angle of a joint and of the largest speed: a number in words may lose some.
+    extent_bits: [u64; 2],
+    looks: u32,
+}
+
 impl Swaying {
     /// A run of so many steps begins with this state.
     pub(crate) fn new(world: &World, steps: u32) -> Self {
         let looks = if world.compiled.forest().is_empty() { LOOKS } else { 0 };
         Self { falls: falls(world), extent: extent(world), steps, looks }
+    }
+
+    /// Goes on with a run of so many steps.
+    pub(crate) fn go_on(kept: KeptSwaying, steps: u32) -> Self {
+        let [joint_angle_rad, tip_speed_m_s] = kept.extent_bits.map(f64::from_bits);
+        let extent = SwayExtent { joint_angle_rad, tip_speed_m_s };
+        Self { falls: kept.falls, extent, steps, looks: kept.looks }
+    }
+
+    /// The same, to be kept.
+    pub(crate) fn keep(&self) -> KeptSwaying {
+        let extent = [self.extent.joint_angle_rad, self.extent.tip_speed_m_s];
+        KeptSwaying { falls: self.falls, extent_bits: extent.map(f64::to_bits), looks: self.looks }
     }
 
     /// Steps to the next sample, with so many left; `None` if the end is sampled anyway.
@@ -54,7 +76,7 @@ impl Swaying {
     }
 
     /// The report, with the state at the end.
-    pub(crate) fn finish(self, world: &World) -> TreeReport {
+    pub(crate) fn finish(&self, world: &World) -> TreeReport {
         let extent = self.extent.or(extent(world));
         TreeReport {
             count: world.compiled.forest().trees().len(),

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tracks of single leaves or particles as a table of comma-separated values.
 
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::Args;
+use serde_json::{Value, json};
 use windfall_core::leaf::LeafView;
 use windfall_core::{Context, Scene, World};
 
 use super::leaf_row::{LeafRow, header};
 use super::live_particle::{self, LiveParticle};
-use crate::files::{CsvFile, WriteError};
+use crate::files::{CsvFile, OutputFile, WriteError};
 use crate::run::parse::whole;
 
 /// Columns before those of the leaf or the particle.
@@ -38,21 +40,49 @@ pub(crate) struct TrackArguments {
 }
 
 impl TrackArguments {
-    /// Begins the file for a scene, if there is to be one.
+    /// Path that the table will lie at, if there is to be one. Links stay links.
     ///
     /// # Errors
-    /// A population that the scene does not have, and whatever would keep the file from being written.
-    pub(crate) fn create(&self, scene: &Scene) -> anyhow::Result<Option<Tracks>> {
-        let Some(path) = &self.tracks else { return Ok(None) };
-        let tracks = match &self.population {
-            None => Tracks::create(path, self.track_every, self.track_leaves as usize)?,
-            Some(name) => Tracks {
-                table: CsvFile::create(path, &live_particle::header(&BEFORE))?,
-                every: self.track_every,
-                tracked: Tracked::Particles { population: population(scene, name)?, most: self.track_leaves },
-            },
+    /// Whatever would keep it from lying there.
+    pub(crate) fn destination(&self) -> Result<Option<PathBuf>, WriteError> {
+        self.tracks.as_deref().map(|path| Ok(OutputFile::create(path)?.destination().to_owned())).transpose()
+    }
+
+    /// Begins the table for a scene in `part`, or goes on behind its first `kept` bytes; `destination` is the path that it will lie at.
+    ///
+    /// # Errors
+    /// A population that the scene does not have; errors of the system.
+    pub(crate) fn grow(
+        &self,
+        scene: &Scene,
+        (part, destination): (&Path, &Path),
+        kept: Option<u64>,
+    ) -> anyhow::Result<Tracks<File>> {
+        let header = match &self.population {
+            None => header(&BEFORE, &[]),
+            Some(_) => live_particle::header(&BEFORE),
         };
-        Ok(Some(tracks))
+        let tracked = match &self.population {
+            None => Tracked::Leaves(self.track_leaves as usize),
+            Some(name) => {
+                Tracked::Particles { population: population(scene, name)?, most: self.track_leaves }
+            }
+        };
+        Ok(Tracks {
+            table: CsvFile::grow(part, destination, &header, kept)?,
+            every: self.track_every,
+            tracked,
+        })
+    }
+
+    /// Everything that the table depends on, besides the scene.
+    pub(crate) fn identity(&self) -> Value {
+        json!({
+            "tracks": self.tracks.is_some(),
+            "track_every": self.track_every,
+            "track_leaves": self.track_leaves,
+            "population": self.population,
+        })
     }
 }
 
@@ -77,8 +107,8 @@ enum Tracked {
 
 /// A table in the making: one row for each leaf, or living particle, and sampled step.
 #[derive(Debug)]
-pub(crate) struct Tracks {
-    table: CsvFile,
+pub(crate) struct Tracks<W: Write = OutputFile> {
+    table: CsvFile<W>,
     every: u32,
     tracked: Tracked,
 }
@@ -93,11 +123,34 @@ impl Tracks {
         Ok(Self { table, every, tracked: Tracked::Leaves(leaves) })
     }
 
-    /// Path that the table will lie at.
-    pub(crate) fn destination(&self) -> &Path {
-        self.table.destination()
+    /// Completes the table under its own name.
+    ///
+    /// # Errors
+    /// Errors of the system, named with the path.
+    pub(crate) fn finish(self) -> anyhow::Result<()> {
+        Ok(self.table.finish()?)
+    }
+}
+
+impl Tracks<File> {
+    /// Writes all rows that are still waiting, and returns the bytes of the table.
+    ///
+    /// # Errors
+    /// Errors of the system, named with the path.
+    pub(crate) fn written(&mut self) -> Result<u64, WriteError> {
+        self.table.written()
     }
 
+    /// Brings the table to the disk.
+    ///
+    /// # Errors
+    /// Errors of the system, named with the path.
+    pub(crate) fn complete(&mut self) -> Result<(), WriteError> {
+        self.table.complete()
+    }
+}
+
+impl<W: Write> Tracks<W> {
     /// Number of steps from `step` to the next that is sampled; 0 if it is that step itself.
     pub(crate) fn wait(&self, step: u32) -> u32 {
         match step % self.every {
@@ -133,14 +186,6 @@ impl Tracks {
     /// Errors of the system, named with the path.
     pub(crate) fn add(&mut self, world: &World, cx: &Context<'_>, slot: usize) -> anyhow::Result<()> {
         Ok(write_row(&mut self.table, world, slot, &world.leaves.view(cx, slot))?)
-    }
-
-    /// Completes the table under its own name.
-    ///
-    /// # Errors
-    /// Errors of the system, named with the path.
-    pub(crate) fn finish(self) -> anyhow::Result<()> {
-        Ok(self.table.finish()?)
     }
 }
 

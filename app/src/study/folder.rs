@@ -14,7 +14,7 @@ use super::landing::{read_drifts, write_landings};
 use super::point::Point;
 use super::summary::{COLUMNS, Summary};
 use super::variation::Variation;
-use crate::files::{CsvFile, OutputFile, OutputFolder, WriteError};
+use crate::files::{CsvFile, Identity, OutputFile, OutputFolder, WriteError};
 use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
 use crate::run::tracks::Tracks;
@@ -47,7 +47,8 @@ impl StudyFolder {
         options: &DropOptions,
         contract: Contract,
     ) -> anyhow::Result<Self> {
-        let text = identity(scene, variations, options, contract)?;
+        let identity = identity(scene, variations, options, contract)?;
+        let text = identity.text();
         let folder = Self { path: path.to_owned() };
         let known = path.join(STUDY);
         match fs::read_to_string(&known) {
@@ -55,7 +56,7 @@ impl StudyFolder {
             Ok(found) => bail!(
                 "{}: holds another study ({}); allowed: a new or empty folder, or this study's own",
                 path.display(),
-                difference(&found, &text)
+                identity.difference(&found)
             ),
             Err(_) if path.is_dir() => {
                 let mut entries = fs::read_dir(path).map_err(WriteError::at(path))?;
@@ -168,7 +169,7 @@ fn identity(
     variations: &[Variation],
     options: &DropOptions,
     contract: Contract,
-) -> anyhow::Result<String> {
+) -> anyhow::Result<Identity> {
     // Of the files that a scene names, these alone decide how leaves fall.
     let tables = scene.species.iter().filter_map(|species| species.tables.as_ref());
     let tables: Vec<_> = tables
@@ -181,7 +182,7 @@ fn identity(
         .iter()
         .map(|to| json!({ "path": to.path, "values": to.settings.iter().map(|s| &s.value).collect::<Vec<_>>() }))
         .collect();
-    let identity = json!({
+    Ok(Identity::new(json!({
         "version": env!("CARGO_PKG_VERSION"),
         "contract": contract.to_string(),
         "drops": options.drops,
@@ -191,16 +192,5 @@ fn identity(
         "vary": vary,
         "tables": tables,
         "scene": scene,
-    });
-    Ok(serde_json::to_string_pretty(&identity)? + "\n")
-}
-
-/// Names of the fields that two studies differ in.
-fn difference(found: &str, expected: &str) -> String {
-    let read = |text| serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
-    let (found, expected) = (read(found), read(expected));
-    let Some(fields) = expected.as_object() else { return "unreadable".into() };
-    let names: Vec<_> = fields.iter().filter(|(name, value)| found.get(name) != Some(value)).collect();
-    let names: Vec<_> = names.into_iter().map(|(name, _)| name.as_str()).collect();
-    if names.is_empty() { "written otherwise".into() } else { format!("other {}", names.join(", ")) }
+    })))
 }

@@ -33,24 +33,9 @@ impl Scene {
             Ok(bytes) => {
                 let mut scene = Self::from_ron(decode(&bytes, name_or_path)?, name_or_path)?;
                 let folder = path.parent().unwrap_or(path);
-                for species in &mut scene.species {
-                    for named in [&mut species.tables, &mut species.leaves].into_iter().flatten() {
-                        // Both parts are text, so nothing is lost.
-                        *named = folder.join(&*named).to_string_lossy().into_owned();
-                    }
-                }
-                for kind in &mut scene.tree_kinds {
-                    if let Some(named) = kind.form.file_mut() {
-                        *named = folder.join(&*named).to_string_lossy().into_owned();
-                    }
-                }
-                for object in &mut scene.objects {
-                    if let ObjectShape::Mesh { file: named, .. } = &mut object.shape {
-                        *named = folder.join(&*named).to_string_lossy().into_owned();
-                    }
-                }
-                if let Sky::Map(map) = &mut scene.view.sky {
-                    map.path = folder.join(&map.path).to_string_lossy().into_owned();
+                for named in scene.files_mut() {
+                    // Both parts are text, so nothing is lost.
+                    *named = folder.join(&*named).to_string_lossy().into_owned();
                 }
                 Ok(scene)
             }
@@ -71,6 +56,29 @@ impl Scene {
                 }
             },
         }
+    }
+
+    /// Paths of the files and folders that the scene names: motion tables, leaves, trees and hulls, meshes of objects, the sky.
+    pub fn files(&self) -> Vec<String> {
+        self.clone().files_mut().into_iter().map(|named| named.clone()).collect()
+    }
+
+    /// The same, to be changed.
+    fn files_mut(&mut self) -> Vec<&mut String> {
+        let mut files = Vec::new();
+        for species in &mut self.species {
+            files.extend([&mut species.tables, &mut species.leaves].into_iter().flatten());
+        }
+        files.extend(self.tree_kinds.iter_mut().filter_map(|kind| kind.form.file_mut()));
+        for object in &mut self.objects {
+            if let ObjectShape::Mesh { file, .. } = &mut object.shape {
+                files.push(file);
+            }
+        }
+        if let Sky::Map(map) = &mut self.view.sky {
+            files.push(&mut map.path);
+        }
+        files
     }
 
     /// Reads and validates the text of a scene file. `file` is the name that errors give.

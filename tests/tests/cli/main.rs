@@ -13,6 +13,7 @@ mod export_gltf;
 mod export_particles;
 mod export_snow;
 mod flight;
+mod going_on;
 mod leaf;
 mod litter;
 mod loops;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Inputs of a frame besides the leaves.
 
+use super::lens_moment::LensMoment;
 use crate::camera::Camera;
 
 /// Inputs of a frame besides the leaves.
@@ -11,8 +12,8 @@ pub struct FrameInput {
     pub camera: Camera,
     /// Time of the simulation in seconds: moves clouds and grass, and ages trails.
     pub time_s: f64,
-    /// Seconds since the frame before, for the lens to adapt to brightness; infinite adapts at once.
-    pub since_s: f32,
+    /// Moment for the lens, which adapts to brightness.
+    pub moment: LensMoment,
     /// Place of the picture's upper left corner in the output, in pixels; the picture must lie inside the output.
     pub origin: (u32, u32),
 }

@@ -6,6 +6,7 @@ pub(crate) mod cascades;
 pub(crate) mod fire_light;
 pub(crate) mod group;
 pub(crate) mod input;
+pub(crate) mod lens_moment;
 pub(crate) mod light_group;
 pub(crate) mod noise;
 pub(crate) mod scene_pipeline;

@@ -225,6 +225,7 @@ mod tests {
 
     use super::*;
     use crate::camera::Camera;
+    use crate::frame::lens_moment::LensMoment;
     use crate::gpu::tile::tiles;
 
     const PATH: Path = Path { lead: Vec2::X, phase: 0.0 };
@@ -234,7 +235,7 @@ mod tests {
         let surroundings =
             Surroundings::new(&View::default(), Vec3::ZERO, PATH).expect("no picture of a sky");
         let camera = Camera::from(&scene::Camera::default());
-        let input = FrameInput { camera, time_s: 0.0, since_s: f32::INFINITY, origin: (0, 0) };
+        let input = FrameInput { camera, time_s: 0.0, moment: LensMoment::FIRST, origin: (0, 0) };
         let tile = tiles((640, 360), (640, 360)).next().expect("a tile");
         let frame = surroundings.frame(&input, 0.0, (640, 360), &tile);
         let water_m = 0.3;
@@ -267,7 +268,7 @@ mod tests {
             let surroundings = Surroundings::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH)
                 .expect("no file is needed");
             let camera = Camera::from(&scene::Camera::default());
-            let input = FrameInput { camera, time_s: 1.0, since_s: f32::INFINITY, origin: (0, 0) };
+            let input = FrameInput { camera, time_s: 1.0, moment: LensMoment::FIRST, origin: (0, 0) };
             let tile = tiles((640, 480), (640, 480)).next().expect("a tile");
             let frame = surroundings.frame(&input, 1.0, (640, 480), &tile);
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));

@@ -5,6 +5,7 @@
 use windfall_core::shared_constants;
 
 use super::group::LensGroup;
+use super::metering::METERED_MOMENTS;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
 
@@ -20,6 +21,7 @@ pub(crate) struct ExposurePass {
     adapt: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
     sums: wgpu::Buffer,
+    metered: wgpu::Buffer,
 }
 
 impl ExposurePass {
@@ -40,6 +42,7 @@ impl ExposurePass {
                 },
                 buffer_entry(1, storage, wgpu::ShaderStages::COMPUTE),
                 buffer_entry(2, storage, wgpu::ShaderStages::COMPUTE),
+                buffer_entry(3, storage, wgpu::ShaderStages::COMPUTE),
             ],
         });
         let module = compile(device, &super::shaders(), "lens/exposure_pass");
@@ -54,13 +57,16 @@ impl ExposurePass {
                 cache: None,
             })
         };
-        let sums = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("exposure"),
-            size: u64::from(EXPOSURE_GROUP_SIZE) * 4,
-            usage: wgpu::BufferUsages::STORAGE,
-            mapped_at_creation: false,
-        });
-        Self { measure: pipeline("measure"), adapt: pipeline("adapt"), layout: bind_layout, sums }
+        let buffer = |label, count: u32| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: u64::from(count) * 4,
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            })
+        };
+        let (sums, metered) = (buffer("exposure", EXPOSURE_GROUP_SIZE), buffer("metered", METERED_MOMENTS));
+        Self { measure: pipeline("measure"), adapt: pipeline("adapt"), layout: bind_layout, sums, metered }
     }
 
     /// Binds the picture to meter.
@@ -77,6 +83,7 @@ impl ExposurePass {
                 wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(light) },
                 wgpu::BindGroupEntry { binding: 1, resource: self.sums.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 2, resource: lens.exposure.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 3, resource: self.metered.as_entire_binding() },
             ],
         })
     }

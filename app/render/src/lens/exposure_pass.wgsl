@@ -11,6 +11,8 @@ const BRIGHTEST: f32 = 65504.0;
 @group(1) @binding(0) var light: texture_2d<f32>;
 @group(1) @binding(1) var<storage, read_write> sums: array<f32, EXPOSURE_GROUP_SIZE>;
 @group(1) @binding(2) var<storage, read_write> exposure: Exposure;
+// Luminance metered at the last moments, in turns.
+@group(1) @binding(3) var<storage, read_write> metered: array<f32, METERED_MOMENTS>;
 
 var<workgroup> terms: array<f32, EXPOSURE_GROUP_SIZE>;
 
@@ -49,9 +51,14 @@ fn adapt(@builtin(local_invocation_index) index: u32) {
         return;
     }
     let measured = terms[0] * lens.inv_size_px.x * lens.inv_size_px.y;
-    let share = select(1.0, lens.adaptation, exposure.has_begun > 0.0);
+    for (var at = 0u; at < lens.moment_count; at++) {
+        metered[(lens.first_moment + at) % METERED_MOMENTS] = measured;
+    }
+    var adapted = 0.0;
+    for (var at = 0u; at < METERED_MOMENTS; at++) {
+        adapted += lens.moment_weights[at / 4u][at % 4u] * metered[at];
+    }
     exposure.measured = measured;
-    exposure.adapted += share * (measured - exposure.adapted);
-    exposure.multiplier = select(lens.key * exp2(-exposure.adapted), lens.manual, lens.key == 0.0);
-    exposure.has_begun = 1.0;
+    exposure.adapted = adapted;
+    exposure.multiplier = select(lens.key * exp2(-adapted), lens.manual, lens.key == 0.0);
 }

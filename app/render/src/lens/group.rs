@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bind group 0 of everything that happens after the scene is drawn: the lens, and how far it is open.
 
+use windfall_core::layout::Float4;
 use windfall_core::scene::{self, Lens, ToneMap};
 use windfall_core::shared_struct;
 
 use super::agx::{CURVE, MIDDLE_GREY};
+use super::metering::{METERED_MOMENTS, Metering};
+use crate::frame::lens_moment::LensMoment;
 use crate::gpu::pipeline::{buffer_entry, uniform_entry};
 
 shared_struct! {
@@ -19,8 +22,6 @@ shared_struct! {
         origin_px: [f32; 2],
         /// Value that the log-average of radiance is mapped to; 0 with manual exposure.
         key: f32,
-        /// Share of the way to a new exposure that this frame goes.
-        adaptation: f32,
         /// Multiplier of manual exposure.
         manual: f32,
         /// Exposed light from which on there is glare.
@@ -49,8 +50,14 @@ shared_struct! {
         max_circle_px: f32,
         /// Distance of the near plane.
         near_m: f32,
+        /// First moment that is metered, in turns.
+        first_moment: u32,
+        /// Number of moments that are metered.
+        moment_count: u32,
         /// Unused.
-        unused: [f32; 2],
+        unused: f32,
+        /// Weight of each moment in what the lens has adapted to, in fours.
+        moment_weights: [Float4; METERED_MOMENTS as usize / 4],
     }
 }
 
@@ -63,8 +70,8 @@ shared_struct! {
         adapted: f32,
         /// Binary logarithm of the picture's log-average.
         measured: f32,
-        /// 0 before the first frame.
-        has_begun: f32,
+        /// Unused.
+        unused: f32,
     }
 }
 
@@ -88,8 +95,8 @@ pub(crate) struct Shot {
     pub(crate) size: (u32, u32),
     /// Its corner in the output.
     pub(crate) origin: (u32, u32),
-    /// Seconds since the frame before; infinite if there was none.
-    pub(crate) since_s: f32,
+    /// Its moment.
+    pub(crate) moment: LensMoment,
     /// Vertical field of view in radians.
     pub(crate) vertical_fov_rad: f32,
     /// Distance of the near plane in metres.
@@ -99,13 +106,11 @@ pub(crate) struct Shot {
 impl LensUniform {
     pub(crate) fn new(lens: &Lens, shot: &Shot) -> Self {
         let (width, height) = (shot.size.0 as f32, shot.size.1 as f32);
-        let (key, adaptation, manual) = match lens.exposure {
-            scene::Exposure::Auto { compensation_ev, adaptation_s } => {
-                let share = -(-shot.since_s / adaptation_s.max(1.0e-6)).exp_m1();
-                (MIDDLE_GREY * compensation_ev.exp2(), share, 0.0)
-            }
-            scene::Exposure::Manual { ev100 } => (0.0, 1.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
+        let (key, manual) = match lens.exposure {
+            scene::Exposure::Auto { compensation_ev, .. } => (MIDDLE_GREY * compensation_ev.exp2(), 0.0),
+            scene::Exposure::Manual { ev100 } => (0.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
         };
+        let metering = Metering::new(&lens.exposure, shot.moment);
         let [agx_slope, agx_below, agx_above, agx_bend] = CURVE.constants();
         let curve_parameter = match lens.tone_map {
             ToneMap::Linear { gamma } => gamma,
@@ -124,7 +129,6 @@ impl LensUniform {
             inv_size_px: [1.0 / width, 1.0 / height],
             origin_px: [shot.origin.0 as f32, shot.origin.1 as f32],
             key,
-            adaptation,
             manual,
             glare_threshold: lens.glare.threshold,
             glare_strength: lens.glare.strength,
@@ -139,7 +143,10 @@ impl LensUniform {
             far_circle_px,
             max_circle_px,
             near_m: shot.near_m,
-            unused: [0.0; 2],
+            first_moment: metering.first,
+            moment_count: metering.count,
+            unused: 0.0,
+            moment_weights: metering.weights.map(Float4),
         }
     }
 }

@@ -9,6 +9,7 @@ pub(crate) mod focus_pass;
 pub(crate) mod fullscreen;
 pub(crate) mod glare_pass;
 pub(crate) mod group;
+pub(crate) mod metering;
 pub(crate) mod motion;
 pub(crate) mod post;
 pub(crate) mod shutter_pass;
@@ -25,6 +26,7 @@ pub(crate) fn shaders() -> Shaders {
         agx::wgsl_constants(),
         exposure_pass::wgsl_constants(),
         glare_pass::wgsl_constants(),
+        metering::wgsl_constants(),
         tonemap_pass::wgsl_constants(),
     ];
     let structs = [

@@ -67,10 +67,15 @@ shared_struct! {
     }
 }
 
+/// Part of an interval by which a frame may come too early for a sample, so that rounding of its time does not matter.
+const EARLY: f64 = 1.0e-3;
+
 /// Which sample of the ring is being written.
 #[derive(Clone, Copy, Debug, Default)]
 struct RingClock {
     newest: u32,
+    /// Number of the interval, from time zero on.
+    number: f64,
     began_s: f64,
     seen_s: Option<f64>,
 }
@@ -88,7 +93,10 @@ impl RingClock {
         let frame_s = self.seen_s.map_or(0.0, |seen| time_s - seen);
         let clear = self.seen_s.is_none() || frame_s < 0.0 || frame_s > trail_s;
         let interval = trail_s / f64::from(SAMPLES - 2);
-        let began = clear || time_s - self.began_s >= interval * 0.999;
+        // Counted from time zero, so that a clip has the same samples wherever it is begun.
+        let number = (time_s / interval + EARLY).floor();
+        let began = clear || number != self.number;
+        self.number = number;
         if began {
             self.newest = (self.newest + 1) % SAMPLES;
             self.began_s = time_s;

@@ -38,7 +38,7 @@ impl Renderer {
         let shot = Shot {
             size: self.targets.size,
             origin: input.origin,
-            since_s: input.since_s,
+            moment: input.moment,
             vertical_fov_rad: camera.vertical_fov_rad,
             near_m: NEAR_M,
         };

@@ -178,7 +178,7 @@ const WITH_AXES: [&str; 9] = [
 ];
 
 /// Members that are lists by number, four to a vector.
-const LISTS: [&str; 4] = ["heights", "kernel", "strips", "texels_m"];
+const LISTS: [&str; 5] = ["heights", "kernel", "moment_weights", "strips", "texels_m"];
 
 /// Buffers that are rows of vectors: columns of the branches, whose rows are positions and quaternions.
 const ROWS: [&str; 4] = ["branch_base", "branch_pose", "rest_base", "rest_pose"];

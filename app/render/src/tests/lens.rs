@@ -27,6 +27,7 @@ struct Bench {
     targets: Targets,
     post: Post,
     target: PictureTarget,
+    moment: Option<LensMoment>,
 }
 
 impl Bench {
@@ -36,15 +37,15 @@ impl Bench {
         let targets = Targets::new(device, size, u32::MAX, false).expect("targets");
         let post = Post::new(device, queue, &targets, PictureTarget::FORMAT, lens);
         let target = PictureTarget::new(device, size).expect("a target");
-        Self { gpu, targets, post, target }
+        Self { gpu, targets, post, target, moment: None }
     }
 
-    /// The picture of grey light.
-    fn draw(&mut self, since_s: f32, light: impl Fn(u32, u32) -> f32) -> RgbaImage {
+    /// The picture of grey light, so long after the one before.
+    fn draw(&mut self, since_s: f64, light: impl Fn(u32, u32) -> f32) -> RgbaImage {
         self.draw_colored(since_s, |x, y| [light(x, y); 3])
     }
 
-    fn draw_colored(&mut self, since_s: f32, light: impl Fn(u32, u32) -> [f32; 3]) -> RgbaImage {
+    fn draw_colored(&mut self, since_s: f64, light: impl Fn(u32, u32) -> [f32; 3]) -> RgbaImage {
         let (width, height) = self.targets.size;
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let texel = |[red, green, blue]: [f32; 3]| {
@@ -61,11 +62,13 @@ impl Bench {
             },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
+        let moment = self.moment.map_or(LensMoment::FIRST, |moment| moment.after(since_s));
+        self.moment = Some(moment);
         let mut encoder = encoder(&self.gpu);
         let shot = Shot {
             size: self.targets.size,
             origin: (0, 0),
-            since_s,
+            moment,
             vertical_fov_rad: 0.8,
             near_m: camera::NEAR_M,
         };
@@ -129,7 +132,7 @@ fn reinhard_follows_the_published_curve() {
     // Equation 2 with the key 0.18: the log-average of 0.2 and 0.8 is 0.4, which makes 0.09 and 0.36 of them.
     let lens = Lens { exposure: Exposure::default(), ..plain(ToneMap::Reinhard { white: 1000.0 }) };
     bench.post.set_lens(bench.gpu.device(), bench.gpu.queue(), &bench.targets, lens);
-    let picture = bench.draw(f32::INFINITY, |x, _| if x % 2 == 0 { 0.2 } else { 0.8 });
+    let picture = bench.draw(f64::INFINITY, |x, _| if x % 2 == 0 { 0.2 } else { 0.8 });
     assert_displays(&picture, (2, 1), 0.09 / 1.09);
     assert_displays(&picture, (3, 1), 0.36 / 1.36);
 }
@@ -181,7 +184,7 @@ fn automatic_exposure_makes_any_grey_wall_middle_grey() {
         Bench::new((50, 30), Lens { exposure: brighter, ..plain(ToneMap::Linear { gamma: 1.0 }) });
     let pixel = bench.draw(0.0, |_, _| 3.0).get_pixel(20, 20).0[0];
     assert!((f32::from(pixel) - 0.36 * 255.0).abs() <= 1.0, "one stop brighter: {pixel}");
-    let picture = bench.draw(f32::INFINITY, |x, _| if x == 7 { f32::NAN } else { 3.0 });
+    let picture = bench.draw(f64::INFINITY, |x, _| if x == 7 { f32::NAN } else { 3.0 });
     assert!(picture.get_pixel(20, 20).0[0] > 80, "a pixel that is no number does not blind the lens");
 }
 
@@ -190,10 +193,15 @@ fn the_lens_adapts_with_its_time_constant() {
     let exposure = Exposure::Auto { compensation_ev: 0.0, adaptation_s: 2.0 };
     let mut bench = Bench::new((16, 16), Lens { exposure, ..plain(ToneMap::Linear { gamma: 1.0 }) });
     bench.draw(0.1, |_, _| 1.0);
-    // A stop brighter; after 2 s the lens has gone 1 - 1/e of the way.
-    let pixel = bench.draw(2.0, |_, _| 2.0).get_pixel(8, 8).0[0];
-    let wanted = 255.0 * 0.18 * (-1.0f32).exp().exp2();
-    assert!((f32::from(pixel) - wanted).abs() <= 1.0, "{pixel} for {wanted}");
+    // A stop brighter; after 2 s of frames the lens has gone half of the way, after four times that all of it.
+    let mut after = |frames: u32| {
+        (0..frames).map(|_| bench.draw(0.02, |_, _| 2.0)).last().expect("frames").get_pixel(8, 8).0[0]
+    };
+    let wanted = 255.0 * 0.18 * 0.5f32.exp2();
+    let pixel = after(100);
+    assert!((f32::from(pixel) - wanted).abs() <= 2.0, "{pixel} for {wanted}");
+    let pixel = after(325);
+    assert!((f32::from(pixel) - 255.0 * 0.18).abs() <= 1.0, "{pixel}");
 }
 
 #[test]

@@ -238,7 +238,7 @@ impl Bench {
             &mut encoder,
             &target.view(),
             &WorldColumns { leaves, branches: branches.cloned(), particles, burns: burns.as_ref(), bed },
-            &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
+            &FrameInput { camera, time_s, moment: LensMoment::FIRST, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")
     }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use windfall_core::{Scene, Simulator, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
+use windfall_render::{FrameInput, LensMoment, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::{Gpu, describe_adapter};
 
 use super::Arguments;
@@ -152,7 +152,7 @@ fn frame(
     backend.sync()?;
     let step_ms = 1.0e3 * start.elapsed().as_secs_f64();
     let time_s = backend.clock().seconds();
-    let input = FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) };
+    let input = FrameInput { camera, time_s, moment: LensMoment::FIRST, origin: (0, 0) };
     let columns = backend.columns(gpu)?;
     let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     renderer.draw(&mut encoder, &target.view(), &columns, &input);

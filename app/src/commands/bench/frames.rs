@@ -8,7 +8,7 @@ use windfall_core::leaf::Leaves;
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
+use windfall_render::{FrameInput, LensMoment, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::{Gpu, StoreBuffers};
 
 use super::contender::Contender;
@@ -64,7 +64,7 @@ impl Stage {
         let input = FrameInput {
             camera: self.camera,
             time_s: world.clock.seconds(),
-            since_s: f32::INFINITY,
+            moment: LensMoment::FIRST,
             origin: (0, 0),
         };
         let columns = contender.columns(&self.gpu, &self.buffers)?;

@@ -24,20 +24,21 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 use windfall_core::leaf::LeafState;
 use windfall_render::light::Daylight;
 
 use self::blobs::BlobSamples;
 use self::histories::HistorySamples;
 use self::particles::ParticleSamples;
-use self::samples::{Handle, Samples};
+use self::samples::{Handle, SampleLayer, Samples};
 use self::snow::SnowSamples;
 use self::solids::SolidSamples;
 use self::trees::TreeSamples;
 use self::view::ViewSamples;
 use super::foliage::Foliage;
 use super::{Exporter, Frame, FrameLeaf, Job};
-use crate::files::{OutputFile, OutputFolder, WriteError};
+use crate::files::{OutputFile, UnfinishedWork, WriteError};
 use crate::leaves;
 use crate::run::progress::making_leaves;
 
@@ -60,7 +61,10 @@ const STAGE: &str = "stage.usda";
 #[derive(Debug)]
 pub(super) struct UsdExport {
     root: OutputFile,
-    folder: OutputFolder,
+    /// Folder that the layers will lie in.
+    folder: PathBuf,
+    work: UnfinishedWork,
+    next: u32,
     foliage: Foliage,
     samples: Samples,
     attributes: LeafAttributes,
@@ -76,13 +80,22 @@ pub(super) struct UsdExport {
     reach_m: f32,
 }
 
+/// Layers that are written.
+#[derive(Debug, Serialize, Deserialize)]
+struct Written {
+    /// The frame that the next one begins with.
+    next: u32,
+    layers: Vec<SampleLayer>,
+}
+
 impl UsdExport {
-    /// Writes everything that does not move.
+    /// Writes everything that does not move, or goes on behind the layers that are there.
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
         let root = OutputFile::create(job.path)?;
         let folder = layer_folder(root.destination());
         check_folder(&folder)?;
-        let folder = OutputFolder::create(&folder)?;
+        let work = UnfinishedWork::open(job.path, job.identity, job.restart)?.by_progress();
+        let written: Option<Written> = work.progress();
         let daylight = Daylight::new(&job.scene.view)?;
         let atlas = leaves::atlas_of(job.scene, &making_leaves())?;
         job.cancel.check()?;
@@ -98,17 +111,24 @@ impl UsdExport {
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);
-        let written = File::create(folder.partial().join(STAGE)).and_then(|file| {
-            let mut out = BufWriter::new(file);
-            stage::write_stage(&mut out, job, &foliage, clock, &daylight)?;
-            out.flush()?;
-            let mut manifest = BufWriter::new(File::create(folder.partial().join(MANIFEST))?);
-            samples.manifest(&mut manifest, &clock.head())?;
-            manifest.flush()
-        });
-        written.map_err(WriteError::at(folder.destination()))?;
-        prototypes::write_pictures(folder.partial(), folder.destination(), &foliage)?;
-        trees::write_pictures(folder.partial(), folder.destination(), job.scene_trees)?;
+        let next = written.as_ref().map_or(job.frames.first, |written| written.next);
+        match written {
+            Some(written) => samples.go_on_behind(written.layers),
+            None => {
+                let parts = work.parts();
+                let written = File::create(parts.join(STAGE)).and_then(|file| {
+                    let mut out = BufWriter::new(file);
+                    stage::write_stage(&mut out, job, &foliage, clock, &daylight)?;
+                    out.flush()?;
+                    let mut manifest = BufWriter::new(File::create(parts.join(MANIFEST))?);
+                    samples.manifest(&mut manifest, &clock.head())?;
+                    manifest.flush()
+                });
+                written.map_err(WriteError::at(&folder))?;
+                prototypes::write_pictures(&parts, &folder, &foliage)?;
+                trees::write_pictures(&parts, &folder, job.scene_trees)?;
+            }
+        }
         let reach_m = foliage
             .meshes
             .iter()
@@ -117,6 +137,8 @@ impl UsdExport {
         Ok(Self {
             root,
             folder,
+            work,
+            next,
             foliage,
             samples,
             attributes,
@@ -146,37 +168,48 @@ impl UsdExport {
 }
 
 impl Exporter for UsdExport {
+    fn next(&self) -> Option<u32> {
+        Some(self.next)
+    }
+
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
         self.add(frame);
         if self.samples.is_full() {
-            let written = self.samples.flush(self.folder.partial(), &self.clock.head());
-            written.map_err(WriteError::at(self.folder.destination()))?;
+            let written = self.samples.flush(&self.work.parts(), &self.clock.head());
+            written.map_err(WriteError::at(&self.folder))?;
+            let layers = self.samples.layers().to_vec();
+            self.work.note_progress(&Written { next: frame.number, layers })?;
             self.add(frame);
         }
+        self.next = frame.number + 1;
         Ok(())
     }
 
     /// The folder first: a root layer that is there has all that it names.
     fn finish(mut self: Box<Self>) -> anyhow::Result<PathBuf> {
-        let folder = self.folder.destination().to_owned();
         let path = self.root.destination().to_owned();
-        let head = self.clock.head();
-        let layers = self.samples.finish(self.folder.partial(), &head);
-        let layers = layers.map_err(WriteError::at(&folder))?;
-        let name = folder.file_name().unwrap_or_default().to_string_lossy();
-        let text = stage::root(self.clock, &name, layers);
-        self.root.write_all(text.as_bytes()).map_err(WriteError::at(&path))?;
-        let old = folder.with_file_name(format!(".{name}.{}.old", std::process::id()));
-        let was_there = folder.exists();
-        if was_there {
-            fs::rename(&folder, &old).map_err(WriteError::at(&folder))?;
+        if !self.work.is_moved() {
+            let written = self.samples.finish(&self.work.parts(), &self.clock.head());
+            written.map_err(WriteError::at(&self.folder))?;
+            let layers = self.samples.layers().to_vec();
+            self.work.note_progress(&Written { next: self.next, layers })?;
         }
-        self.folder.finish("")?;
+        let name = self.folder.file_name().unwrap_or_default().to_string_lossy();
+        let text = stage::root(self.clock, &name, self.samples.layers());
+        self.root.write_all(text.as_bytes()).map_err(WriteError::at(&path))?;
+        let old = self.folder.with_file_name(format!(".{name}.old"));
+        if !self.work.is_moved() {
+            if self.folder.exists() {
+                fs::rename(&self.folder, &old).map_err(WriteError::at(&self.folder))?;
+            }
+            self.work.move_parts(&self.folder)?;
+        }
         self.root.finish()?;
-        if was_there {
+        if old.exists() {
             // The new stage is complete; nobody asks for the old one.
             let _ = fs::remove_dir_all(&old);
         }
+        self.work.finish();
         Ok(path)
     }
 }

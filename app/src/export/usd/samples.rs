@@ -8,6 +8,8 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
 /// Text of samples from which a layer is full.
 const LAYER_BYTES: usize = 16 << 20;
 
@@ -27,7 +29,7 @@ struct Attribute {
 }
 
 /// A finished layer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct SampleLayer {
     /// Name of its file.
     pub(super) name: String,
@@ -72,6 +74,16 @@ impl Samples {
             left_out: None,
         });
         Handle(self.attributes.len() - 1)
+    }
+
+    /// Goes on behind layers that are there.
+    pub(super) fn go_on_behind(&mut self, layers: Vec<SampleLayer>) {
+        self.layers = layers;
+    }
+
+    /// The finished layers in their order.
+    pub(super) fn layers(&self) -> &[SampleLayer] {
+        &self.layers
     }
 
     /// Begins a frame.
@@ -125,13 +137,13 @@ impl Samples {
         Ok(())
     }
 
-    /// Writes what is left, and gives all layers in their order.
-    pub(super) fn finish(&mut self, folder: &Path, head: &str) -> io::Result<&[SampleLayer]> {
+    /// Writes what is left.
+    pub(super) fn finish(&mut self, folder: &Path, head: &str) -> io::Result<()> {
         // A single frame that the layer before has too is not needed again.
         if self.frames > 1 || self.layers.is_empty() {
             self.flush(folder, head)?;
         }
-        Ok(&self.layers)
+        Ok(())
     }
 
     /// Writes a layer that says which attributes have samples, for readers of several layers.
@@ -200,8 +212,8 @@ mod tests {
                 }
             }
         }
-        let layers = samples.finish(folder.path(), "").expect("room").to_vec();
-        (folder, layers)
+        samples.finish(folder.path(), "").expect("room");
+        (folder, samples.layers().to_vec())
     }
 
     #[test]

@@ -8,10 +8,11 @@ use windfall_render::light::Daylight;
 
 use super::samples::SampleLayer;
 use super::{MANIFEST, STAGE, blobs, histories, particles, prototypes, snow, solids, text, trees, view};
+use crate::export::Job;
 use crate::export::foliage::Foliage;
 use crate::export::solids::solid_parts;
 use crate::export::surface::{self, Surface};
-use crate::export::{FrameRange, Job};
+use crate::run::frame_range::FrameRange;
 
 /// Decimal places of the corners of ground and water in metres.
 const SURFACE_PLACES: i32 = 4;

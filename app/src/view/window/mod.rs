@@ -21,7 +21,7 @@ use anyhow::Context;
 use windfall_core::scene::camera_at;
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
-use windfall_render::{FrameInput, PictureTarget, Renderer};
+use windfall_render::{FrameInput, LensMoment, PictureTarget, Renderer};
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
@@ -93,8 +93,8 @@ pub(crate) struct Viewer {
     has_news: bool,
     /// There was nothing to draw before this frame.
     was_idle: bool,
-    /// Seconds since the frame before; infinite if nothing was drawn for a while.
-    since_s: f32,
+    /// Moment of the frame for the lens, which adapts at once if nothing was drawn for a while.
+    moment: LensMoment,
 }
 
 impl Viewer {
@@ -144,7 +144,7 @@ impl Viewer {
             next: Next::Frame,
             has_news: false,
             was_idle: true,
-            since_s: f32::INFINITY,
+            moment: LensMoment::FIRST,
         })
     }
 
@@ -186,9 +186,9 @@ impl Viewer {
             self.was_idle = true;
             return Ok(self.next);
         }
-        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
-        let since_s = if self.was_idle { f32::INFINITY } else { frame_s as f32 };
-        self.since_s = since_s;
+        // A clip that is recorded goes on by its own frames.
+        let passed_s = if self.recording.is_some() { 0.0 } else { frame_s };
+        self.moment = if self.was_idle { LensMoment::FIRST } else { self.moment.after(passed_s) };
         self.has_news = false;
         self.build_what_was_announced()?;
         let since = Instant::now();
@@ -293,7 +293,7 @@ impl Viewer {
         let since = Instant::now();
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let input = FrameInput { camera: self.camera, time_s, since_s: self.since_s, origin };
+        let input = FrameInput { camera: self.camera, time_s, moment: self.moment, origin };
         self.renderer.draw(&mut encoder, view, &columns, &input);
         self.instruments.ask(&mut encoder, &columns, step, is_far);
         self.meter.add(Stage::Draw, since);

@@ -79,9 +79,8 @@ impl Viewer {
         let columns = self.session.columns()?;
         let device = self.gpu.device();
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        #[expect(clippy::cast_possible_truncation, reason = "a sixtieth")]
-        let since_s = (1.0 / crate::view::tools::clip::FPS) as f32;
-        let input = FrameInput { camera: self.camera, time_s, since_s, origin: (0, 0) };
+        self.moment = self.moment.after(1.0 / crate::view::tools::clip::FPS);
+        let input = FrameInput { camera: self.camera, time_s, moment: self.moment, origin: (0, 0) };
         let view = recording.target.view();
         self.renderer.draw(&mut encoder, &view, &columns, &input);
         let picture = recording.target.submit_and_read(device, self.gpu.queue(), encoder);
@@ -91,7 +90,7 @@ impl Viewer {
             Err(error) => self.say(format!("The clip ends here: {error}"), true),
         }
         // The window shows the same moment: for it no time passes.
-        self.since_s = 0.0;
+        self.moment = self.moment.after(0.0);
         Ok(())
     }
 }

@@ -112,13 +112,14 @@ pub(crate) fn assert_interrupted(folder: &TempDir, arguments: &[&str]) {
 
 /// Output of the program when it is interrupted half a second after `is_at_work`; it ends with exit code 2.
 pub(crate) fn interrupted(folder: &TempDir, arguments: &[&str], is_at_work: impl Fn() -> bool) -> String {
-    let child = command(folder, arguments)
+    let mut child = command(folder, arguments)
         .stderr(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
         .expect("the program starts");
     let began = Instant::now();
     while !is_at_work() {
+        assert!(child.try_wait().is_ok_and(|ended| ended.is_none()), "{arguments:?}: it ends early");
         assert!(began.elapsed() < Duration::from_secs(60), "{arguments:?}: it does not begin");
         std::thread::sleep(Duration::from_millis(10));
     }

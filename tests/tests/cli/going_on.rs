@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Long work that ends early and is gone on with: killed at random moments it comes to the same bytes as an unbroken run, loses nothing
+//! that was finished, and leaves nothing behind. And clips that are drawn in parts.
+//!
+//! `WINDFALL_KILLS` is the number of kills for each kind of work, three if it is not set.
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::TestRunner;
+use tempfile::TempDir;
+
+use crate::common_cli::{assert_refused, command, contents, file, folder, interrupted, windfall};
+
+/// A few leaves of which some lie, and sparks; a lens that adapts and a shutter that stays open.
+const SCENE: &str = r#"(
+    wind: (speed: Beaufort(4)),
+    species: [(name: "plate", shape: Plate, size_m: 0.06)],
+    sources: [(shape: Sphere(center_m: (0.0, 1.5, 0.0), radius_m: 1.0), count: 300,
+               release: Rate(per_s: 40.0, from_s: -3.0), recycle_after_s: 0.6)],
+    particles: [(name: "sparks", count: 500, release: Rate(per_s: 60.0, from_s: 0.0))],
+    view: (trail_s: 0.4, lens: (exposure: Auto(adaptation_s: 0.25), shutter_s: 0.02)),
+)"#;
+
+fn scene() -> TempDir {
+    let there = folder();
+    file(&there, "scene.ron", SCENE);
+    there
+}
+
+/// Number of files below a folder whose names begin with this.
+fn count(folder: &Path, beginning: &str) -> usize {
+    let is_one =
+        |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(beginning));
+    contents(folder).iter().filter(|(path, _)| path.is_file() && is_one(path)).count()
+}
+
+/// Runs the program until it comes to its end, killing it at random moments on the way; `finished` counts what must not be lost.
+fn run_with_kills(there: &TempDir, arguments: &[&str], within: Duration, finished: impl Fn(&Path) -> usize) {
+    let kills: u32 = std::env::var("WINDFALL_KILLS").map_or(3, |kills| kills.parse().expect("a number"));
+    let mut random = TestRunner::default();
+    let mut before = finished(there.path());
+    for number in 0..kills {
+        let mut child =
+            command(there, arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+        let share = (0.0..1.0_f64).new_tree(&mut random).expect("a number").current();
+        let moment = Instant::now() + within.mul_f64(share);
+        while Instant::now() < moment && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        child.kill().expect("it can be killed");
+        if child.wait().expect("a child").success() {
+            eprintln!("killed {number} times");
+            return;
+        }
+        let now = finished(there.path());
+        assert!(now >= before, "{arguments:?}: {now} parts are finished of {before}");
+        before = now;
+    }
+    eprintln!("killed {kills} times");
+    windfall(there, arguments).text();
+}
+
+/// Asserts that work that is killed comes to what it comes to otherwise, and that nothing else is left.
+fn assert_survives_kills(arguments: &[&str], finished: impl Fn(&Path) -> usize) {
+    let whole = scene();
+    let began = Instant::now();
+    windfall(&whole, arguments).text();
+    let took = began.elapsed();
+    let killed = scene();
+    run_with_kills(&killed, arguments, took, finished);
+    let [whole, killed] = [&whole, &killed].map(|folder| {
+        let mut all = contents(folder.path());
+        all.iter_mut().for_each(|(path, _)| *path = path.strip_prefix(folder).expect("in it").to_owned());
+        all
+    });
+    let names =
+        |all: &[(std::path::PathBuf, Vec<u8>)]| all.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&killed), names(&whole), "{arguments:?}: the same files");
+    for ((path, a), (_, b)) in killed.iter().zip(&whole) {
+        assert!(a == b, "{arguments:?}: {} is that of a run that went through", path.display());
+    }
+}
+
+#[test]
+fn clips_survive_kills() {
+    for out in ["frames", "clip.gif"] {
+        let options = ["--backend", "cpu", "--frames", "40", "--size", "96x54", "--out", out];
+        assert_survives_kills(&[&["render", "scene.ron"], &options[..]].concat(), |there| {
+            count(there, "frame_")
+        });
+    }
+}
+
+#[test]
+fn exports_survive_kills() {
+    for (out, part) in [("a.usda", "frames_"), ("a.csv", "a.csv"), ("clouds", "frame_"), ("a.glb", "a.glb")] {
+        let options = ["--backend", "cpu", "--frames", "5..1500", "--out", out];
+        assert_survives_kills(&[&["export", "scene.ron"], &options[..]].concat(), |there| count(there, part));
+    }
+}
+
+#[test]
+fn simulations_survive_kills() {
+    let options = ["--steps", "12000", "--backend", "cpu", "--tracks", "tracks.csv", "--track-every", "3"];
+    let arguments =
+        [&["simulate", "scene.ron", "--leaves", "40000", "--checkpoint", "state"], &options[..]].concat();
+    assert_survives_kills(&arguments, |there| count(there, "state"));
+}
+
+#[test]
+fn studies_survive_kills() {
+    let options =
+        ["--backend", "cpu", "--threads", "2", "--vary", "wind.speed=0,1,2,3,4,5", "--drops", "200"];
+    let arguments = [&["study", "scene.ron", "--out", "out"], &options[..]].concat();
+    assert_survives_kills(&arguments, |there| count(there, "landings.csv"));
+}
+
+#[test]
+fn an_interrupt_keeps_what_is_finished_and_the_same_command_goes_on() {
+    let there = scene();
+    let render = |out| {
+        let options = ["--backend", "cpu", "--frames", "90", "--size", "96x54", "--out", out];
+        [&["render", "scene.ron"], &options[..]].concat()
+    };
+    let said = interrupted(&there, &render("a.gif"), || count(there.path(), "frame_") > 2);
+    assert!(
+        said.contains("of 45 frames are kept: the same command goes on"),
+        "half of the frames are seen: {said}"
+    );
+    let other = ["render", "scene.ron", "--frames", "80", "--size", "96x54", "--out", "a.gif"];
+    assert_refused(&there, &other, &["a.gif", "other frames", "--restart"]);
+    let going_on = windfall(&there, &render("a.gif"));
+    assert!(going_on.stderr.contains("going on with"), "{going_on:?}");
+    going_on.text();
+    windfall(&there, &render("b.gif")).text();
+    assert!(
+        fs::read(there.path().join("a.gif")).expect("there")
+            == fs::read(there.path().join("b.gif")).expect("there"),
+        "the same clip"
+    );
+
+    let export = |out, more: &[&'static str]| {
+        let options = ["--backend", "cpu", "--frames", "0..3000", "--out", out];
+        [&["export", "scene.ron"], &options[..], more].concat()
+    };
+    let said = interrupted(&there, &export("clouds", &[]), || count(there.path(), "frame_") > 2);
+    assert!(said.contains("finished frames are kept"), "{said}");
+    assert!(!there.path().join("clouds").exists(), "nothing lies at the output");
+    let outcome =
+        windfall(&there, &["export", "scene.ron", "--frames", "0..2", "--out", "clouds", "--restart"]);
+    assert!(!outcome.stderr.contains("going on"), "{outcome:?}");
+    outcome.text();
+    assert_eq!(count(&there.path().join("clouds"), "frame_"), 3, "those of the new one alone");
+
+    let steps = ["simulate", "scene.ron", "--leaves", "100000", "--steps", "100000", "--backend", "cpu"];
+    let steps = [&steps[..], &["--checkpoint", "state"]].concat();
+    let said = interrupted(&there, &steps, || there.path().join(".state.unfinished/work.json").exists());
+    assert!(said.contains("steps are kept"), "{said}");
+    let hidden = |name: &str| name.starts_with('.');
+    let left: Vec<_> = fs::read_dir(there.path())
+        .expect("a folder")
+        .map(|entry| entry.expect("there").file_name().to_string_lossy().into_owned())
+        .filter(|name| hidden(name))
+        .collect();
+    assert_eq!(left, [".state.unfinished"], "only what can be gone on with");
+}
+
+#[test]
+fn two_runs_do_not_write_the_same_clip_at_once() {
+    let there = scene();
+    let render =
+        ["render", "scene.ron", "--backend", "cpu", "--frames", "2000", "--size", "96x54", "--out", "frames"];
+    let mut first =
+        command(&there, &render).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    while count(there.path(), "frame_") == 0 {
+        assert!(first.try_wait().expect("a child").is_none(), "it is at work");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let second = windfall(&there, &render);
+    first.kill().expect("it runs");
+    first.wait().expect("a child");
+    assert_eq!(second.code, Some(2), "{second:?}");
+    assert!(second.stderr.contains("frames: another run is writing it"), "{second:?}");
+}
+
+#[test]
+fn parts_of_a_clip_are_those_of_the_whole() {
+    let there = scene();
+    let render = |scene: &str, frames: &str, out: &str| {
+        let options =
+            ["--backend", "cpu", "--frames", frames, "--size", "128x72", "--fps", "30", "--out", out];
+        windfall(&there, &[&["render", scene], &options[..]].concat()).text();
+    };
+    for (scene, count, parts) in
+        [("scene.ron", 50, ["38..49", "0..4", "5..37"]), ("first-snow", 12, ["8..11", "0..2", "3..7"])]
+    {
+        render(scene, &count.to_string(), "whole");
+        for part in parts {
+            render(scene, part, "parts");
+        }
+        let [whole, parts] = ["whole", "parts"].map(|name| contents(&there.path().join(name)));
+        assert_eq!((whole.len(), parts.len()), (count, count), "{scene}: as many frames");
+        for ((path, a), (_, b)) in parts.iter().zip(&whole) {
+            assert!(a == b, "{scene}: {} is that of the whole", path.display());
+        }
+        render(scene, &format!("{0}..{0}", count - 1), "last.png");
+        let (last, _) = &whole[count - 1];
+        let [alone, last] =
+            [&there.path().join("last.png"), last].map(|path| image::open(path).expect("a picture"));
+        assert!(alone.to_rgb8() == last.to_rgb8(), "{scene}: a frame by itself is that of the whole");
+        ["whole", "parts"]
+            .iter()
+            .for_each(|name| fs::remove_dir_all(there.path().join(name)).expect("there"));
+    }
+    assert_refused(&there, &["render", "--frames", "9..3", "--out", "x.png"], &["--frames", "0..240"]);
+    let looped = ["render", "--frames", "3..9", "--loop", "4", "--out", "x.gif"];
+    assert_refused(&there, &looped, &["--frames", "--loop"]);
+}
