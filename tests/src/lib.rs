@@ -7,6 +7,7 @@ pub mod compare;
 pub mod functions;
 pub mod grove;
 pub mod mutation;
+pub mod random_world;
 pub mod reference;
 pub mod runner;
 pub mod strategies;

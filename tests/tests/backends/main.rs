@@ -12,6 +12,7 @@ mod kernels;
 mod litter;
 mod long;
 mod particles;
+mod random_worlds;
 mod stepped;
 mod stores;
 mod trees;
