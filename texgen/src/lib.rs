@@ -45,6 +45,7 @@ mod paint;
 mod plane;
 mod planform;
 mod raster;
+mod regular_file;
 mod rng;
 pub mod season;
 mod shape;

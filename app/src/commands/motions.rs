@@ -5,7 +5,6 @@
 use std::fs;
 use std::path::PathBuf;
 
-use anyhow::anyhow;
 use clap::Args;
 use windfall_core::motion::MotionTables;
 use windfall_core::scene::Species;
@@ -77,6 +76,5 @@ fn tables(scene: &Scene, species: &Species) -> anyhow::Result<MotionTables> {
     let Some(path) = &species.tables else {
         return Ok(MotionTables::generate(species, words, scene.gravity_m_s2));
     };
-    let text = fs::read_to_string(path).map_err(|error| anyhow!("{path}: {error}"))?;
-    Ok(MotionTables::from_text(&text, path)?)
+    Ok(MotionTables::read(path)?)
 }

@@ -35,14 +35,20 @@ pub fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result<Atlas>
     let most = MAX_LAYERS / scene.species.len().max(1);
     let is_large = scene.species.len() * VARIANTS as usize <= LARGE_PICTURES;
     let size_px = if is_large { PICTURE_SIZE } else { SMALL_SIZE };
+    // Before any leaf is made, which takes long: so a folder that cannot be used is refused at once.
+    let folders = scene
+        .species
+        .iter()
+        .map(|species| species.leaves.as_ref().map(|path| LeafFolder::load(path.as_ref())).transpose());
+    let folders = folders.collect::<Result<Vec<_>, _>>()?;
     let mut kinds: Vec<Vec<Layer>> = Vec::with_capacity(scene.species.len());
-    for species in &scene.species {
+    for (species, folder) in scene.species.iter().zip(&folders) {
         let of_folder = |folder: &LeafFolder| {
             let leaves = in_season(&folder.leaves, species.season);
             leaves[..leaves.len().min(most)].par_iter().map(|leaf| Layer::of_leaf(leaf, size_px)).collect()
         };
-        kinds.push(match (&species.leaves, kind_of(species.shape)) {
-            (Some(path), _) => of_folder(&LeafFolder::load(path.as_ref())?),
+        kinds.push(match (folder, kind_of(species.shape)) {
+            (Some(folder), _) => of_folder(folder),
             (None, Kind::Leaf(shape)) => {
                 of_folder(&cache::load_or_make(&assortment(species, shape, size_px), progress)?)
             }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pictures of a scene as it goes on, without a window.
 
-use windfall_core::scene::{CameraKey, camera_at};
+use windfall_core::scene::{CameraKey, Sky, camera_at};
 use windfall_core::{CompiledScene, Scene, Simulator, World};
 use windfall_render::camera::Camera;
+use windfall_render::light::Daylight;
 use windfall_render::trees::SceneTrees;
 use windfall_render::{
     FrameInput, LensMoment, Paint, PictureTarget, RenderScene, Renderer, RendererOptions, ShelterMap,
@@ -57,7 +58,12 @@ impl Studio {
         cancel: &Cancel,
         progress: &LeafProgress,
     ) -> anyhow::Result<Self> {
-        Self::with_leaves(world, &leaves::atlas_of(world.compiled.scene(), progress)?, drawing, size, cancel)
+        let scene = world.compiled.scene();
+        if let Sky::Map(_) = scene.view.sky {
+            // Refused before leaves are made, which takes a minute.
+            Daylight::new(&scene.view)?;
+        }
+        Self::with_leaves(world, &leaves::atlas_of(scene, progress)?, drawing, size, cancel)
     }
 
     /// The same with the pictures of the scene's leaves, for several studios of one scene.

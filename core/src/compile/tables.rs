@@ -23,9 +23,7 @@ fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionT
     let Some(path) = &species.tables else {
         return Ok(MotionTables::generate(species, seed, scene.gravity_m_s2));
     };
-    let text =
-        std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    let tables = MotionTables::from_text(&text, path)?;
+    let tables = MotionTables::read(path)?;
     let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));
     let speedup = leaf * f64::from(scene.rotation_speed.max(1.0));
     let shortest = f64::from(scene.dt_s) * speedup / MAX_PERIODS_PER_STEP;

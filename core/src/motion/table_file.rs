@@ -20,11 +20,15 @@
 //! count for nothing.
 
 use std::fmt::Write as _;
+use std::io::{self, ErrorKind};
 
 use super::primitive::{JOINED_COUNT, Primitive};
 use super::table::{MotionTables, PrimitiveTable, TABLE_ROWS};
 use crate::error::SceneError;
+use crate::read_regular_file;
 
+/// Largest file in bytes: some hundred times what the format takes.
+const MAX_FILE_BYTES: u64 = 64 << 20;
 const MAGIC: &str = "windfall-motions 1";
 
 impl MotionTables {
@@ -41,6 +45,17 @@ impl MotionTables {
             }
         }
         text
+    }
+
+    /// Reads a motion file.
+    ///
+    /// # Errors
+    /// [`SceneError::Read`] for what is no regular file of text of a sensible size, and what [`MotionTables::from_text`] finds.
+    pub fn read(path: &str) -> Result<Self, SceneError> {
+        let text = read_regular_file(path.as_ref(), MAX_FILE_BYTES).and_then(|bytes| {
+            String::from_utf8(bytes).map_err(|error| io::Error::new(ErrorKind::InvalidData, error))
+        });
+        Self::from_text(&text.map_err(|source| SceneError::Read { path: path.into(), source })?, path)
     }
 
     /// Reads the text of a motion file; `file` names it in errors.

@@ -7,6 +7,8 @@ mod common_cli;
 mod bad_input;
 mod blobs;
 mod drift;
+#[cfg(unix)]
+mod endless_files;
 mod examples;
 mod export;
 mod export_gltf;

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pictures and masks from files, whatever their kind.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, GrayImage, ImageReader, RgbImage};
 
-use crate::TexgenError;
+use crate::{TexgenError, regular_file};
 
 /// Largest picture that is read, in millions of pixels.
 const MEGAPIXELS: u64 = 64;
@@ -66,7 +65,7 @@ fn decode(path: &Path) -> Result<DynamicImage, TexgenError> {
     let open = || {
         let unreadable = |error: std::io::Error| TexgenError::photo(name.clone(), error.to_string());
         // By what the file holds, whatever its name says.
-        let reader = File::open(path).map(|file| ImageReader::new(BufReader::new(file)));
+        let reader = regular_file::open(path).map(|file| ImageReader::new(BufReader::new(file)));
         reader.and_then(ImageReader::with_guessed_format).map_err(unreadable)
     };
     let (width, height) = open()?.into_dimensions().map_err(problem)?;

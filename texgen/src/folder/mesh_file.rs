@@ -7,9 +7,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::FolderError;
+use super::{FolderError, MAX_TEXT_BYTES};
 use crate::form::{Detail, Drying, LeafMesh};
-use crate::{Blade, TexgenError, VeinGraph};
+use crate::{Blade, TexgenError, VeinGraph, regular_file};
 
 /// Meshes of one leaf, coarse first. All lengths are shares of the picture's side, x to the right and y down from its
 /// upper left corner, z towards the viewer of the upper side.
@@ -84,7 +84,9 @@ impl LeafForm {
     /// [`FolderError`] for a file that is missing, is no form, or names corners that it does not have.
     pub fn load(folder: &Path, name: &str) -> Result<Self, FolderError> {
         let path = folder.join(file_name(name));
-        let text = fs::read_to_string(&path).map_err(|source| FolderError::read(&path, source))?;
+        let bytes =
+            regular_file::read(&path, MAX_TEXT_BYTES).map_err(|source| FolderError::read(&path, source))?;
+        let text = String::from_utf8_lossy(&bytes);
         let form: Self = ron::from_str(&text).map_err(|error| FolderError::Manifest {
             path: path.clone(),
             line: error.span.start.line,

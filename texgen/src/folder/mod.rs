@@ -20,10 +20,13 @@ use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::LeafMaps;
+use crate::regular_file;
 pub use error::FolderError;
 pub use manifest::{BodyFacts, FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest};
 pub use mesh_file::{FormLevel, FormShape, LeafForm};
 
+/// Largest file of text in bytes: a manifest or meshes of a leaf.
+const MAX_TEXT_BYTES: u64 = 64 << 20;
 /// Endings of a leaf's five pictures.
 const ENDINGS: [&str; 5] = ["png", "normal.png", "height.png", "translucency.png", "mask.png"];
 
@@ -98,7 +101,8 @@ impl Manifest {
     /// [`FolderError`] for a manifest that is missing, cannot be read, or holds what is not allowed.
     pub fn load(folder: &Path) -> Result<Self, FolderError> {
         let path = folder.join(MANIFEST_NAME);
-        let bytes = fs::read(&path).map_err(|source| FolderError::read(&path, source))?;
+        let bytes =
+            regular_file::read(&path, MAX_TEXT_BYTES).map_err(|source| FolderError::read(&path, source))?;
         let text = std::str::from_utf8(&bytes).map_err(|error| FolderError::Manifest {
             path: path.clone(),
             line: 1,
@@ -164,7 +168,7 @@ impl FolderLeaf {
 fn picture(path: &Path, size_px: u32) -> Result<DynamicImage, FolderError> {
     let broken =
         |error: image::ImageError| FolderError::Picture { path: path.to_owned(), problem: error.to_string() };
-    let file = File::open(path).map_err(|source| FolderError::read(path, source))?;
+    let file = regular_file::open(path).map_err(|source| FolderError::read(path, source))?;
     let decoder = PngDecoder::new(BufReader::new(file)).map_err(broken)?;
     let found = decoder.dimensions();
     if found != (size_px, size_px) {

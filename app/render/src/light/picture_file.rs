@@ -4,12 +4,12 @@
 
 use std::fs;
 use std::io::Cursor;
-use std::path::Path;
 
 use glam::Vec3;
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::openexr::OpenExrDecoder;
 use image::{ImageDecoder, ImageError};
+use windfall_core::read_regular_file;
 
 use super::MapError;
 
@@ -72,12 +72,11 @@ impl Picture {
 
 /// The bytes of a file of a sensible size.
 fn read_file(path: &str) -> Result<Vec<u8>, MapError> {
-    let unreadable = |source| MapError::Read { file: path.into(), source };
-    let length = fs::metadata(Path::new(path)).map_err(unreadable)?.len();
+    let length = fs::metadata(path).map_or(0, |file| file.len());
     if length > MAX_BYTES {
         return Err(MapError::Bytes { file: path.into(), length, allowed: MAX_BYTES });
     }
-    fs::read(path).map_err(unreadable)
+    read_regular_file(path.as_ref(), MAX_BYTES).map_err(|source| MapError::Read { file: path.into(), source })
 }
 
 /// Allows what the shapes of maps are.

@@ -12,8 +12,7 @@ mod skinned;
 mod triangles;
 mod vertices;
 
-use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use gltf::json::validation::Checked;
@@ -25,6 +24,7 @@ use self::rig::Rig;
 use self::skinned::Skinned;
 pub use self::triangles::GltfTriangles;
 use super::GltfError;
+use crate::read_regular_file;
 use crate::tree::skeleton::MAX_SEGMENTS;
 use crate::tree::{BarkMesh, Skeleton};
 
@@ -52,7 +52,7 @@ pub struct RiggedTree {
 /// # Errors
 /// [`GltfError`] for whatever keeps the file from being a tree.
 pub fn read(path: &Path) -> Result<RiggedTree, GltfError> {
-    let bytes = read_file(path, MAX_FILE_BYTES).map_err(|source| too_large(path, source))?;
+    let bytes = read_regular_file(path, MAX_FILE_BYTES).map_err(|source| too_large(path, source))?;
     read_bytes(&bytes, path)
 }
 
@@ -90,7 +90,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<RiggedTree, GltfError> {
 /// # Errors
 /// [`GltfError`] for whatever keeps the file from having any.
 pub fn read_triangles(path: &Path) -> Result<GltfTriangles, GltfError> {
-    let bytes = read_file(path, MAX_FILE_BYTES).map_err(|source| too_large(path, source))?;
+    let bytes = read_regular_file(path, MAX_FILE_BYTES).map_err(|source| too_large(path, source))?;
     let file = path.display().to_string();
     let gltf = parse(&bytes)
         .map_err(|reason| GltfError::Format { file: file.clone(), reason: one_line(&reason) })?;
@@ -131,20 +131,6 @@ fn chosen<'a>(document: &'a Document, file: &str) -> Result<Skin<'a>, GltfError>
         return Err(GltfError::Joints { file: file.into(), skin: skin.index(), found: joints(&skin) });
     }
     Ok(skin)
-}
-
-/// The bytes of a file, if it is one and no larger than `most`.
-fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
-        return Err(io::Error::new(ErrorKind::IsADirectory, "a directory, not a glTF file"));
-    }
-    let mut bytes = Vec::new();
-    file.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most {
-        return Err(ErrorKind::FileTooLarge.into());
-    }
-    Ok(bytes)
 }
 
 fn too_large(path: &Path, source: io::Error) -> GltfError {

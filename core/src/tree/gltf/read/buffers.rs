@@ -9,7 +9,8 @@ use base64::engine::general_purpose::STANDARD;
 use gltf::Gltf;
 use gltf::buffer;
 
-use super::{GltfError, MAX_FILE_BYTES, read_file};
+use super::{GltfError, MAX_FILE_BYTES};
+use crate::read_regular_file;
 
 /// The bytes of every buffer.
 ///
@@ -30,7 +31,7 @@ pub(super) fn load(gltf: &Gltf, path: &Path) -> Result<Vec<Vec<u8>>, GltfError> 
                 Some(data) => embedded(data).map_err(fail)?,
                 None => {
                     let beside = beside(path, uri).map_err(fail)?;
-                    read_file(&beside, left).map_err(|error| match error.kind() {
+                    read_regular_file(&beside, left).map_err(|error| match error.kind() {
                         std::io::ErrorKind::FileTooLarge => GltfError::Size { file: file.clone() },
                         _ => fail(format!("{}: {error}", beside.display())),
                     })?

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Files that scenes and options name and that have no end: pipes that nobody writes to, and devices.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use crate::common_cli::{command, file, folder};
+
+/// Seconds after which the program is taken to wait for ever.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Asserts that the program refuses arguments, soon and in one line that names the file.
+fn assert_refused_soon(there: &TempDir, arguments: &[&str], name: &str) {
+    let mut child = command(there, arguments)
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let began = Instant::now();
+    while child.try_wait().expect("a child").is_none() {
+        if began.elapsed() > PATIENCE {
+            child.kill().expect("it runs");
+            panic!("{arguments:?}: it waits for {name}");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().expect("it has ended");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+    assert!(said.contains(name) && said.contains("a device, not a file"), "{arguments:?}: {said}");
+    assert_eq!(said.trim().lines().count(), 1, "{arguments:?}: one line: {said}");
+}
+
+/// A pipe that nobody writes to.
+fn pipe(path: &Path) {
+    let made = Command::new("mkfifo").arg(path).status();
+    assert!(made.is_ok_and(|status| status.success()), "{} is made", path.display());
+}
+
+#[test]
+fn pipes_and_devices_that_a_scene_names_are_refused() {
+    let there = folder();
+    pipe(&there.path().join("pipe"));
+    std::os::unix::fs::symlink("/dev/zero", there.path().join("zero")).expect("writable");
+    std::fs::create_dir(there.path().join("leaves")).expect("writable");
+    pipe(&there.path().join("leaves/leaves.ron"));
+    for name in ["pipe", "zero"] {
+        let scenes = [
+            format!("(species: [(name: \"a\", tables: Some(\"{name}\"))])"),
+            format!("(view: (sky: Map((path: \"{name}\"))))"),
+            format!("(tree_kinds: [(name: \"t\", form: File(\"{name}\"))], trees: [(kind: \"t\")])"),
+            format!("(ground: (litter: Some(())), objects: [(shape: Mesh(file: \"{name}\"))])"),
+        ];
+        for scene in scenes {
+            file(&there, "scene.ron", scene);
+            assert_refused_soon(&there, &["render", "scene.ron", "--frames", "1", "--out", "a.png"], name);
+        }
+        assert_refused_soon(&there, &["render", "--sky", name, "--frames", "1", "--out", "a.png"], name);
+        assert_refused_soon(&there, &["leaf", "veins", name, "--out", "a.png"], name);
+    }
+    file(&there, "scene.ron", "(species: [(name: \"a\", leaves: Some(\"leaves\"))])");
+    assert_refused_soon(&there, &["render", "scene.ron", "--frames", "1", "--out", "a.png"], "leaves.ron");
+}
