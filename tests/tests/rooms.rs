@@ -48,6 +48,7 @@ const CORE: Order = Order {
     sources: "core/src",
     rooms: &[
         "convert",
+        "regular_file",
         "error",
         "layout",
         "threads",
