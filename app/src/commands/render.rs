@@ -101,6 +101,14 @@ enum Timeline {
 }
 
 impl Timeline {
+    /// Number of frames before the first of the clip.
+    fn lead(&self) -> u32 {
+        match self {
+            Self::Clip(_) => 0,
+            Self::Round(_, lead) => *lead,
+        }
+    }
+
     fn step(&self, number: u32) -> u64 {
         match self {
             Self::Clip(steps) => steps.before(number),
@@ -144,7 +152,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         let round = LoopFrames::new(cycle, rate, scene.dt_s);
         last = round.count() - 1;
         timeline = Timeline::Round(round, lead_frames(&scene, arguments.fps, rate));
-    } else if is_still {
+    }
+    if is_still {
         first = last;
     }
     let drawing = Drawing::without_window(&arguments.backend)?;
@@ -156,21 +165,19 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         None => &World::build_named(&scene, name)?,
     };
     let mut studio = studio(arguments, world, drawing, size, &cancel)?;
-    let mut lead = 0;
-    if let (Some((_, cycle)), Timeline::Round(_, frames)) = (&cycle, timeline) {
+    if let Some((_, cycle)) = &cycle {
         let dt_s = studio.dt_s();
         studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
-        lead = frames;
     }
     let shots = ShotList {
         stride: output.stride(arguments.fps),
-        first: lead + first,
-        last: lead + last,
+        first: timeline.lead() + first,
+        last: timeline.lead() + last,
         frame_s: 1.0 / arguments.fps,
         adapts: (!is_still || is_part).then_some(scene.view.lens.exposure),
         needs_all: !arguments.show.is_empty(),
     };
-    let filmed = film(&mut studio, &mut clip, &shots, (&timeline, lead), 1.0 / rate, &cancel);
+    let filmed = film(&mut studio, &mut clip, &shots, &timeline, 1.0 / rate, &cancel);
     if cancel.check().is_err() {
         let kept = (first..=last).filter(|&number| clip.has(number)).count();
         if kept > 0 {
@@ -245,10 +252,11 @@ fn film(
     studio: &mut Studio,
     clip: &mut KeptClip,
     shots: &ShotList,
-    (timeline, lead): (&Timeline, u32),
+    timeline: &Timeline,
     frame_s: f64,
     cancel: &Cancel,
 ) -> anyhow::Result<()> {
+    let lead = timeline.lead();
     let shows = |ahead: u32, is_next| studio.remembers(f64::from(ahead) * frame_s, is_next);
     let plan = shots.plan(|number| !clip.has(number - lead), shows);
     let kept = (shots.first..=shots.last).filter(|number| clip.has(number - lead)).count();

@@ -13,7 +13,7 @@ use tempfile::NamedTempFile;
 
 use super::WriteError;
 use super::parents::{MadeFolders, parent};
-use super::partial::{ENDING, hold, remove_dead};
+use super::partial::{ENDING, LETTERS, hold, remove_dead};
 
 /// A file in the making. Dropped without [`OutputFile::finish`], it leaves no trace, and what lay at its destination
 /// stays as it was.
@@ -54,7 +54,7 @@ impl OutputFile {
             suffix.push(ending);
         }
         let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix).suffix(&suffix);
+        builder.prefix(&prefix).suffix(&suffix).rand_bytes(LETTERS);
         // Permissions of any other file: the user's mask takes its bits away.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));

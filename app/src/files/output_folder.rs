@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 use super::WriteError;
 use super::parents::{MadeFolders, parent};
-use super::partial::{ENDING, hold, remove_dead};
+use super::partial::{ENDING, LETTERS, hold, remove_dead};
 
 /// A folder in the making. Dropped without [`OutputFolder::finish`], it leaves no trace.
 #[derive(Debug)]
@@ -42,7 +42,7 @@ impl OutputFolder {
         prefix.push(".");
         remove_dead(parent(path), &prefix);
         let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix).suffix(ENDING);
+        builder.prefix(&prefix).suffix(ENDING).rand_bytes(LETTERS);
         // Permissions of any other folder: the user's mask takes its bits away.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));

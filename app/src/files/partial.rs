@@ -17,8 +17,8 @@ mod unix {
 
     /// Holds the lock of a file or folder in the making. False if a run that took it for dead has removed it.
     pub(in super::super) fn hold(lock: &File, path: &Path) -> bool {
-        // Where the disk has no locks, nothing is ever taken for dead.
-        let _ = lock.try_lock();
+        // A run that takes it for dead holds it until it is removed. Where the disk has no locks, nothing is ever taken for dead.
+        let _ = lock.lock();
         path.exists()
     }
 
@@ -32,7 +32,7 @@ mod unix {
                 let ending =
                     rest.windows(super::ENDING.len()).position(|part| part == super::ENDING.as_bytes());
                 // Between them stand the random letters that make it unlike any other.
-                ending.is_some_and(|at| at > 0 && rest[..at].iter().all(u8::is_ascii_alphanumeric))
+                ending == Some(super::LETTERS) && rest[..super::LETTERS].iter().all(u8::is_ascii_alphanumeric)
             });
             // A file or folder, not what a link leads to.
             let Ok(kind) = entry.file_type() else { continue };
@@ -50,6 +50,8 @@ mod unix {
 
 /// Ending of everything in the making.
 pub(super) const ENDING: &str = ".partial";
+/// Number of random letters in its name.
+pub(super) const LETTERS: usize = 6;
 
 #[cfg(not(unix))]
 pub(super) fn hold(_: &std::fs::File, _: &std::path::Path) -> bool {
@@ -83,6 +85,7 @@ mod tests {
         fs::write(path(".out.Zz9qqq.partial/frame"), "half").expect("writable");
         // Of others, or of nobody.
         let others = [
+            ".a.txt.ab.partial.txt",
             ".a.txt.b.c.partial.txt",
             ".a.txt.mine",
             ".b.txt.Xy3kAb.partial.txt",

@@ -12,7 +12,7 @@ use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 use super::output_folder::move_files;
-use super::parents::parent;
+use super::parents::{MadeFolders, parent};
 use super::{Identity, OutputFile, WriteError};
 
 /// Ending of the folder's name.
@@ -38,6 +38,8 @@ pub(crate) struct UnfinishedWork {
     /// Parts count only as far as the noted progress says so.
     needs_progress: bool,
     _lock: File,
+    /// Go after it.
+    _made: MadeFolders,
 }
 
 /// Work that cannot be begun or gone on with.
@@ -93,6 +95,7 @@ impl UnfinishedWork {
         hidden.push(part);
         hidden.push(ENDING);
         let folder = parent(destination).join(hidden);
+        let made = MadeFolders::make(parent(destination)).map_err(WriteError::at(destination))?;
         let lock = lock(destination, &folder)?;
         let work = Self {
             destination: destination.to_owned(),
@@ -100,6 +103,7 @@ impl UnfinishedWork {
             is_finished: false,
             needs_progress: false,
             _lock: lock,
+            _made: made,
         };
         let (path, text) = (work.folder.join(IDENTITY), identity.text());
         let known = fs::read_to_string(&path).ok();
@@ -275,6 +279,9 @@ mod tests {
         let path = there.path().join("clip");
         let open = |fps, restart| UnfinishedWork::open(&path, &identity(fps), restart);
         drop(open(30, false).expect("writable"));
+        drop(
+            UnfinishedWork::open(&there.path().join("new/deep/clip"), &identity(1), false).expect("writable"),
+        );
         assert!(names(there.path()).is_empty(), "nothing was done");
         let work = open(30, false).expect("writable");
         fs::write(work.parts().join("a"), "done").expect("writable");
