@@ -192,7 +192,7 @@ impl Simulator for CpuSimulator {
         let (cells, pulls, carriers) = (&self.cells, &mut self.pulls, &mut self.carriers);
         let starts = &mut self.starts;
         starts.resize(compiled.start_count(), bytemuck::Zeroable::zeroed());
-        let (is_mutual, has_nests) = (compiled.block().has_mutual(), compiled.block().has_nests());
+        let (is_mutual, has_nests) = (compiled.has_mutual(), compiled.block().has_nests());
         let has_carriers = !compiled.carriers().is_empty();
         let forest = Arc::clone(compiled.forest());
         let is_small =

@@ -180,7 +180,7 @@ impl KernelId {
         if compiled.scene().particle_count() > 0 {
             kernels.push(Self::StepParticles);
         }
-        if compiled.block().has_mutual() {
+        if compiled.has_mutual() {
             kernels.push(Self::PullParticles);
         }
         if !compiled.carriers().is_empty() {

@@ -103,7 +103,7 @@ impl ParticleBindings {
             mapped_at_creation: false,
         });
         gpu.queue().write_buffer(&run_blocks, 0, &bytes);
-        let has_mutual = compiled.block().has_mutual();
+        let has_mutual = compiled.has_mutual();
         let pull_rows = if has_mutual { u64::from(count) } else { 1 };
         let pulls = buffer(gpu, "particle pulls", pull_rows * 16, wgpu::BufferUsages::STORAGE);
         let carrier_rows = compiled.carriers().iter().map(|run| run.first_row + run.count * CARRIER_ROWS);

@@ -647,11 +647,6 @@ impl SceneBlock {
         self.litter.is_calm != 0
     }
 
-    /// Returns true if particles of some population attract one another.
-    pub fn has_mutual(&self) -> bool {
-        self.populations.iter().any(|population| population.mutual_gm_m3_s2 != 0.0)
-    }
-
     /// Returns true if particles of some population are born of others.
     pub fn has_nests(&self) -> bool {
         self.populations.iter().any(|population| population.nest.fan != 0)

@@ -52,7 +52,7 @@ use crate::context::Context;
 use crate::convert::len32;
 use crate::device::motion::lookup::MotionRows;
 use crate::device::particle::force_carrier::CarrierRun;
-use crate::device::particle::record::POPULATION_LOCAL;
+use crate::device::particle::record::{POPULATION_LOCAL, POPULATION_MUTUAL};
 use crate::device::terrain::ground::ground_relief;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
 use crate::device::wind::profile::profile_rows;
@@ -253,6 +253,11 @@ impl CompiledScene {
     /// The uniform block.
     pub fn block(&self) -> &SceneBlock {
         &self.block
+    }
+
+    /// Returns true if particles of some population attract one another, be it by nothing.
+    pub fn has_mutual(&self) -> bool {
+        self.block.populations.iter().any(|population| (population.flags & POPULATION_MUTUAL) != 0)
     }
 
     /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; shelter; chances of

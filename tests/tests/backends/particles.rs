@@ -3,8 +3,8 @@
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
 use windfall_core::scene::{
-    Air, MeanSpeed, Meets, ObjectMotion, ParticleEvent, ParticleRelease, Particles, Release, Spread, Tree,
-    TreeForm, TreeKind, TreePreset,
+    Air, ForceKind, MeanSpeed, Meets, ObjectMotion, ParticleEvent, ParticleRelease, Particles, Release,
+    Spread, Tree, TreeForm, TreeKind, TreePreset,
 };
 use windfall_core::{SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
@@ -49,6 +49,26 @@ fn a_thousand_steps_of_particles_are_equal_to_the_bit() {
         // Small pages, and portions of any length.
         let found = on_gpu(&gpu, &world, &exact(Some(4096)), &[1, 40, 7, 72]);
         assert_eq!(on_cpu(&world, CpuOptions::default(), 120).state_hash(), found.state_hash(), "pages");
+    }
+}
+
+/// A strength of nothing is allowed, as one that a user lowers in the window may become: every kernel that it needs is there.
+#[test]
+fn particles_that_attract_one_another_by_nothing_are_equal_to_the_bit() {
+    let mut scene = particle_scene(33, 4.0, DT_S);
+    for force in &mut scene.forces {
+        if let ForceKind::Mutual { gm_m3_s2, .. } = &mut force.of {
+            *gm_m3_s2 = 0.0;
+        }
+    }
+    let world = World::build(&scene).expect("valid");
+    let expected = on_cpu(&world, CpuOptions::default(), 60);
+    let mut stepped = world.clone();
+    oracle::step(&mut stepped, 60);
+    assert_eq!(stepped.state_hash(), expected.state_hash(), "the oracle");
+    for gpu in exact_adapters() {
+        let found = on_gpu(&gpu, &world, &exact(None), &[60]);
+        assert_eq!(expected.state_hash(), found.state_hash(), "{}", gpu.info().name);
     }
 }
 

@@ -48,7 +48,8 @@ fn run_with_kills(there: &TempDir, arguments: &[&str], within: Duration, finishe
         let mut child =
             command(there, arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
         let share = (0.0..1.0_f64).new_tree(&mut random).expect("a number").current();
-        let moment = Instant::now() + within.mul_f64(share);
+        // Rather early than late, so that there is something left to be killed.
+        let moment = Instant::now() + within.mul_f64(share.powi(3));
         while Instant::now() < moment && child.try_wait().expect("a child").is_none() {
             std::thread::sleep(Duration::from_millis(2));
         }
