@@ -56,42 +56,42 @@ impl Draws {
 type Splice = fn(&mut Scene, &Scene);
 
 /// Every part of a scene that the state depends on.
-const PARTS: [(&str, Splice); 19] = [
-    ("wind", |to, from| to.wind = from.wind.clone()),
-    ("vortices", |to, from| to.wind.vortices.clone_from(&from.wind.vortices)),
-    ("jets", |to, from| to.wind.jets.clone_from(&from.wind.jets)),
-    ("plumes", |to, from| to.wind.plumes.clone_from(&from.wind.plumes)),
-    ("turbulence", |to, from| to.wind.turbulence = from.wind.turbulence),
-    ("leaves", |to, from| {
+const PARTS: [Splice; 19] = [
+    |to, from| to.wind = from.wind.clone(),
+    |to, from| to.wind.vortices.clone_from(&from.wind.vortices),
+    |to, from| to.wind.jets.clone_from(&from.wind.jets),
+    |to, from| to.wind.plumes.clone_from(&from.wind.plumes),
+    |to, from| to.wind.turbulence = from.wind.turbulence,
+    |to, from| {
         (to.species, to.sources) = (from.species.clone(), from.sources.clone());
-    }),
-    ("species", |to, from| to.species.extend(from.species.iter().cloned())),
-    ("sources", |to, from| {
+    },
+    |to, from| to.species.extend(from.species.iter().cloned()),
+    |to, from| {
         to.sources.extend(from.sources.iter().cloned().map(|mut source| {
             source.species.clear();
             source
         }));
-    }),
-    ("trees", |to, from| {
+    },
+    |to, from| {
         (to.tree_kinds, to.trees) = (from.tree_kinds.clone(), from.trees.clone());
         (to.autumn, to.regrow_after_s, to.sway_every) = (from.autumn, from.regrow_after_s, from.sway_every);
-    }),
-    ("sway", |to, from| to.sway = from.sway),
-    ("ground", |to, from| to.ground = from.ground),
-    ("litter", |to, from| to.ground.litter = from.ground.litter),
-    ("water", |to, from| to.ground.water = from.ground.water),
-    ("terrain", |to, from| to.ground.terrain.clone_from(&from.ground.terrain)),
-    ("objects", |to, from| to.objects.clone_from(&from.objects)),
-    ("walkers", |to, from| to.walkers.clone_from(&from.walkers)),
-    ("particles", |to, from| {
+    },
+    |to, from| to.sway = from.sway,
+    |to, from| to.ground = from.ground,
+    |to, from| to.ground.litter = from.ground.litter,
+    |to, from| to.ground.water = from.ground.water,
+    |to, from| to.ground.terrain.clone_from(&from.ground.terrain),
+    |to, from| to.objects.clone_from(&from.objects),
+    |to, from| to.walkers.clone_from(&from.walkers),
+    |to, from| {
         (to.particles, to.forces) = (from.particles.clone(), from.forces.clone());
         to.weather.clone_from(&from.weather);
-    }),
-    ("population", |to, from| to.particles.extend(from.particles.first().cloned())),
-    ("step", |to, from| {
+    },
+    |to, from| to.particles.extend(from.particles.first().cloned()),
+    |to, from| {
         (to.dt_s, to.gravity_m_s2) = (from.dt_s, from.gravity_m_s2);
         (to.fall_speed, to.rotation_speed) = (from.fall_speed, from.rotation_speed);
-    }),
+    },
 ];
 
 /// Scenes that others are put together from.
@@ -140,7 +140,7 @@ fn random_scene(draws: &mut Draws) -> Scene {
     let mut scene = draws.pick(&DONORS).clone();
     scene.seed = draws.next();
     for _ in 0..draws.below(SPLICES + 1) {
-        let (donor, (_, splice)) = (draws.pick(&DONORS), draws.pick(&PARTS));
+        let (donor, splice) = (draws.pick(&DONORS), draws.pick(&PARTS));
         let mut spliced = scene.clone();
         splice(&mut spliced, donor);
         if spliced.validate("random").is_ok() {

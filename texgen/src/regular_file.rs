@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Opens files that folders and users name: regular ones alone, as a pipe that nobody writes to and a device have no end.
+//! (The core crate has the like; this one depends on none of the others.)
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};

@@ -15,8 +15,8 @@ use crate::files::{Identity, OutputFile, UnfinishedWork, WriteError};
 
 /// Seconds from one state to the next, at least.
 const SHORTEST: Duration = Duration::from_secs(2);
-/// Share of the time that keeping states may take.
-const SHARE: u32 = 50;
+/// Least time from one state to the next, as a multiple of what keeping the last one took.
+const PAUSES: u32 = 50;
 /// Name of the table of tracks while it is in the making.
 const TRACKS: &str = "tracks.csv";
 
@@ -71,7 +71,7 @@ impl KeptSimulation {
     /// Returns true if it is time to keep the state.
     pub(crate) fn is_due(&self) -> bool {
         let (when, took) = self.last;
-        when.elapsed() >= SHORTEST.max(took * SHARE)
+        when.elapsed() >= SHORTEST.max(took * PAUSES)
     }
 
     /// Keeps the state after so many steps of the run; `tracks` are the bytes of the table of tracks.

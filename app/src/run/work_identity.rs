@@ -32,22 +32,26 @@ pub(crate) fn work_identity(command: &str, scene: &Scene, options: &Value) -> Id
     Identity::new(values)
 }
 
-/// Adds the bytes of a file, or the names and bytes of all files in a folder.
+/// Adds the bytes of a file, or the names and bytes of all files in a folder; what lies in folders below it is not the scene's.
 fn add_up(path: &Path, sum: &mut crc32fast::Hasher) -> io::Result<()> {
     if !path.is_dir() {
-        // Neither a pipe nor a device, which may never end.
-        if path.is_file() {
-            sum.update(&fs::read(path)?);
-        }
-        return Ok(());
+        return add_file(path, sum);
     }
     let mut names =
         fs::read_dir(path)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
     names.sort();
     names.into_iter().try_for_each(|name| {
         sum.update(name.as_encoded_bytes());
-        add_up(&path.join(name), sum)
+        add_file(&path.join(name), sum)
     })
+}
+
+/// Adds the bytes of a regular file; pipes and devices may never end.
+fn add_file(path: &Path, sum: &mut crc32fast::Hasher) -> io::Result<()> {
+    if path.is_file() {
+        sum.update(&fs::read(path)?);
+    }
+    Ok(())
 }
 
 #[cfg(test)]

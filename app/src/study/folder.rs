@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use serde_json::json;
-use windfall_core::{Contract, Scene};
+use windfall_core::{Contract, Scene, read_regular_file};
 
 use super::drops::{DropOptions, drop_all};
 use super::landing::{read_drifts, write_landings};
@@ -174,7 +174,8 @@ fn identity(
     let tables = scene.species.iter().filter_map(|species| species.tables.as_ref());
     let tables: Vec<_> = tables
         .map(|path| {
-            let bytes = fs::read(path).map_err(|error| anyhow!("{path}: {error}"))?;
+            let bytes =
+                read_regular_file(path.as_ref(), u64::MAX).map_err(|error| anyhow!("{path}: {error}"))?;
             Ok(json!({ "file": path, "crc32": crc32fast::hash(&bytes) }))
         })
         .collect::<anyhow::Result<_>>()?;

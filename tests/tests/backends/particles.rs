@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
+//! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed. One file, as all
+//! of it steps the same scene of particles.
 
 use windfall_core::scene::{
     Air, ForceKind, MeanSpeed, Meets, ObjectMotion, ParticleEvent, ParticleRelease, Particles, Release,
