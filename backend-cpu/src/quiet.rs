@@ -43,17 +43,19 @@ impl QuietUnit {
 /// All units.
 #[derive(Debug)]
 pub(crate) struct QuietUnits {
+    /// Slot that the first unit begins with.
+    first: u32,
     units: Vec<QuietUnit>,
     /// Step before which nothing happens to any leaf; 0 where that is not known.
     all: AtomicU32,
 }
 
 impl QuietUnits {
-    /// Units for so many slots, nothing known of any.
-    pub(crate) fn new(slots: usize) -> Self {
+    /// Units for so many slots from `first` on, nothing known of any.
+    pub(crate) fn new(first: u32, slots: usize) -> Self {
         const { assert!(UNIT == u64::BITS as usize, "a bit for each leaf of a unit") };
         let units = (0..slots.div_ceil(UNIT)).map(|_| QuietUnit::default()).collect();
-        Self { units, all: AtomicU32::new(0) }
+        Self { first, units, all: AtomicU32::new(0) }
     }
 
     /// Forgets all that is known, after the state or the scene has changed.
@@ -65,7 +67,7 @@ impl QuietUnits {
     /// Notes that something may happen to the leaf of a slot.
     #[inline(always)]
     pub(crate) fn wake(&self, slot: u32) {
-        let slot = slot as usize;
+        let slot = (slot - self.first) as usize;
         self.units[slot / UNIT].stirring.fetch_or(1 << (slot % UNIT), Ordering::Relaxed);
         self.all.store(0, Ordering::Relaxed);
     }
@@ -84,9 +86,9 @@ impl QuietUnits {
         &self.units
     }
 
-    /// Units of the slots before one that begins a unit or is behind the last, and of those from it on.
-    pub(crate) fn split_at(&self, slot: usize) -> (&[QuietUnit], &[QuietUnit]) {
-        self.units.split_at(slot.div_ceil(UNIT))
+    /// Units of the rows before one that begins a unit or is behind the last, and of those from it on.
+    pub(crate) fn split_at(&self, row: usize) -> (&[QuietUnit], &[QuietUnit]) {
+        self.units.split_at(row.div_ceil(UNIT))
     }
 }
 

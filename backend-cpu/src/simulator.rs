@@ -89,7 +89,7 @@ impl CpuSimulator {
             Some(builder.build().map_err(|error| SimError::Device { reason: error.to_string() })?)
         };
         let simd = options.simd.unwrap_or_else(Simd::best);
-        let quiet = QuietUnits::new(world.leaves.len());
+        let quiet = QuietUnits::new(world.compiled.shard_rows().first_row, world.leaves.len());
         let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
         let (cells, heat) = (CollisionCells::default(), HeatSums::default());
@@ -204,7 +204,9 @@ impl Simulator for CpuSimulator {
             (0..count).for_each(|_| compiled.advance(clock));
             return Ok(());
         }
-        let tree_leaves = compiled.block().tree_leaf_count as usize;
+        let shard = compiled.shard_rows();
+        let unused = shard.unused_rows() as usize;
+        let tree_leaves = shard.rows_on_trees(compiled.block().tree_leaf_count) as usize;
         // Leaves of trees, in whole chunks, follow the segments step by step.
         let carried =
             if forest.is_empty() { 0 } else { tree_leaves.next_multiple_of(CHUNK).min(leaves.len()) };
@@ -255,9 +257,14 @@ impl Simulator for CpuSimulator {
                         BatchRun {
                             batches: forest.batches(),
                             blocks,
-                            segments: forest.segments(),
-                            branches: branches.as_mut(),
-                            leaves: leaves.as_mut().split_at(tree_leaves).0,
+                            segments: &forest.segments()[shard.segments.clone()],
+                            branches: branches
+                                .as_mut()
+                                .split_at(shard.segments.end)
+                                .0
+                                .split_at(shard.segments.start)
+                                .1,
+                            leaves: leaves.as_mut().split_at(tree_leaves).0.split_at(unused).1,
                             quiet,
                         },
                         scratches,
@@ -317,6 +324,7 @@ impl Simulator for CpuSimulator {
             Some(pool) => pool.install(|| measure(places)),
             None => measure(places),
         };
-        Ok(Stats::from_counters(&counters, self.world.clock.step()))
+        let unused = self.world.compiled.shard_rows().unused_rows();
+        Ok(Stats::from_counters(&counters, self.world.clock.step()).without_unused(unused))
     }
 }

@@ -79,7 +79,7 @@ pub mod tree;
 pub mod wind;
 
 pub use clock::Clock;
-pub use compile::{CompiledScene, Cycle, NO_WATER_M, OpenSnow, REST_OFFSET_M};
+pub use compile::{CompiledScene, Cycle, NO_WATER_M, OpenSnow, REST_OFFSET_M, Shard, ShardRows};
 pub use context::Context;
 pub use device::arith;
 pub use error::{SceneError, SimError};

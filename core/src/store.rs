@@ -7,6 +7,7 @@
 //! their buffers, comparison of backends. A further store is a field of `World` and a line in `World::stores`.
 
 use std::fmt::Debug;
+use std::ops::Range;
 
 use bytemuck::Pod;
 
@@ -191,9 +192,13 @@ pub fn copy_stores(from: &[&dyn Store], to: &mut [&mut dyn Store]) {
 /// Rows whose hashes are computed together, column by column.
 const HASH_ROWS: usize = 512;
 
-/// A fingerprint of all rows of stores: a sum over rows, so that it can be taken in any order.
-pub fn hash_stores(stores: &[&dyn Store]) -> u64 {
-    (0..).zip(stores).fold(0u64, |sum, (index, store)| sum.wrapping_add(hash_store(*store, salt(index))))
+/// A fingerprint of rows of stores: a sum over rows, so that it can be taken in any order. `rows` says which rows of a store, and which number
+/// the first of them goes by.
+pub fn hash_stores(stores: &[&dyn Store], rows: impl Fn(&dyn Store) -> (Range<usize>, u64)) -> u64 {
+    (0..).zip(stores).fold(0u64, |sum, (index, store)| {
+        let (rows, number) = rows(*store);
+        sum.wrapping_add(hash_store(*store, rows, number, salt(index)))
+    })
 }
 
 /// Salt that distinguishes the rows of one store of a world from those of another.
@@ -205,19 +210,19 @@ fn salt(index: u64) -> u64 {
     }
 }
 
-/// Sum over the rows of a store of a hash of row number and words: columns of single words first, then the others.
-fn hash_store(store: &dyn Store, salt: u64) -> u64 {
+/// Sum over rows of a store, the first of which goes by a number, of a hash of number and words: columns of single words first, then the others.
+fn hash_store(store: &dyn Store, rows: Range<usize>, number: u64, salt: u64) -> u64 {
     let columns: Vec<_> =
         store.description().iter().map(|column| column.record_bytes).zip(store.columns()).collect();
     let is_narrow = |bytes: usize| bytes < size_of::<u64>();
     let narrow = columns.iter().filter(|column| is_narrow(column.0));
     let order: Vec<_> = narrow.chain(columns.iter().filter(|column| !is_narrow(column.0))).collect();
     let mut sum = 0u64;
-    for first in (0..store.rows()).step_by(HASH_ROWS) {
-        let last = store.rows().min(first + HASH_ROWS);
+    for first in rows.clone().step_by(HASH_ROWS) {
+        let last = rows.end.min(first + HASH_ROWS);
         let mut hashes = [0; HASH_ROWS];
         let hashes = &mut hashes[..last - first];
-        for (row, hash) in (first as u64..).zip(hashes.iter_mut()) {
+        for (row, hash) in (number + (first - rows.start) as u64..).zip(hashes.iter_mut()) {
             *hash = row ^ salt;
         }
         for (bytes, column) in &order {

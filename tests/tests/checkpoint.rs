@@ -71,10 +71,10 @@ fn resealed(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Offset of the leaf count in a checkpoint: behind magic, version, scene, step and wind travel.
+/// Offset of the leaf count in a checkpoint: behind magic, version, scene, shard, step and wind travel.
 fn leaf_count_at(bytes: &[u8]) -> usize {
     let length = u64::from_le_bytes(bytes[12..20].try_into().expect("eight bytes"));
-    20 + usize::try_from(length).expect("a short scene") + 4 + 8
+    20 + usize::try_from(length).expect("a short scene") + 8 + 4 + 8
 }
 
 proptest! {
@@ -178,10 +178,10 @@ fn other_files_and_versions_say_so() {
     other[..8].copy_from_slice(b"WINDMILL");
     assert!(refusal(&resealed(other)).contains("begin with WINDFALL"), "another magic");
     let mut newer = good().to_vec();
-    newer[8..12].copy_from_slice(&11u32.to_le_bytes());
+    newer[8..12].copy_from_slice(&12u32.to_le_bytes());
     let reason = refusal(&resealed(newer));
     assert!(
-        reason.contains("version 11") && reason.contains("reads version 10"),
+        reason.contains("version 12") && reason.contains("reads version 11"),
         "a newer version: {reason}"
     );
 }

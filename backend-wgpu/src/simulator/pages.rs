@@ -107,11 +107,14 @@ impl WgpuSimulator {
         let bound = |layout, count| {
             group(&self.gpu, self.pipelines.layout(layout), blocks().chain(columns().take(count)))
         };
-        let tree_leaves = self.compiled.scene().tree_leaf_count().saturating_sub(first).min(leaves);
+        let shard = self.compiled.shard_rows();
+        let on_trees = shard.rows_on_trees(self.compiled.scene().tree_leaf_count());
+        let tree_leaves = on_trees.saturating_sub(first).min(leaves);
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
             let stride = branches.stride(BRANCH_TURN as usize);
-            let block = CarryBlock { first_slot: first, column_stride: stride, unused: [0; 2] };
+            let block =
+                CarryBlock { first_slot: shard.first_row + first, column_stride: stride, unused: [0; 2] };
             let block = uniform(&self.gpu, "carry", &block);
             let carriers = [
                 block.as_entire_binding(),

@@ -24,6 +24,7 @@ pub struct StateRequest {
 pub struct StatsRequest {
     readback: Readback,
     step: u32,
+    unused_rows: u32,
 }
 
 impl WgpuSimulator {
@@ -59,7 +60,8 @@ impl WgpuSimulator {
         let size = u64::from(COUNTER_COUNT) * 4;
         let run = Run { buffer: &self.counters, offset: 0, size };
         let readback = Readback::new(&self.gpu, std::iter::once(run))?;
-        Ok(StatsRequest { readback, step: self.clock.step() })
+        let unused_rows = self.compiled.shard_rows().unused_rows();
+        Ok(StatsRequest { readback, step: self.clock.step(), unused_rows })
     }
 }
 
@@ -98,6 +100,6 @@ impl StatsRequest {
     fn take(&self) -> Result<Stats, SimError> {
         let mut counters = [0u32; COUNTER_COUNT as usize];
         self.readback.take(std::iter::once(bytemuck::cast_slice_mut(&mut counters)))?;
-        Ok(Stats::from_counters(&counters, self.step))
+        Ok(Stats::from_counters(&counters, self.step).without_unused(self.unused_rows))
     }
 }

@@ -16,6 +16,7 @@ mod nest;
 mod occupancy;
 mod particles;
 mod plume;
+mod shard;
 mod shelter;
 mod slipstream;
 mod snow;
@@ -39,6 +40,7 @@ pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::force_carriers::force_carriers;
 use self::particles::populations_of;
+pub use self::shard::{Shard, ShardRows};
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 pub use self::snow::OpenSnow;
 use self::snow::snow_block;
@@ -82,6 +84,8 @@ pub struct CompiledScene {
     carriers: Arc<[CarrierRun]>,
     histories: Arc<[(usize, HistoryRun)]>,
     cycle: Option<Cycle>,
+    shard: Shard,
+    shard_rows: ShardRows,
 }
 
 impl CompiledScene {
@@ -90,7 +94,16 @@ impl CompiledScene {
     /// # Errors
     /// A motion table or a mesh that cannot be read or used, a tree that does not grow.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
-        Self::compile_with(scene, None)
+        Self::compile_as(scene, None, Shard::WHOLE)
+    }
+
+    /// Compiles a shard of a scene.
+    ///
+    /// # Errors
+    /// As [`CompiledScene::compile`]; what leaves of all shards would share, named by its field.
+    pub fn compile_shard(scene: &Scene, shard: Shard) -> Result<Self, SceneError> {
+        shard.check(scene)?;
+        Self::compile_as(scene, None, shard)
     }
 
     /// Compiles a scene as [`CompiledScene::compile`] does; one that [`Cycle::of`] made together with its cycle.
@@ -98,6 +111,10 @@ impl CompiledScene {
     /// # Errors
     /// As there.
     pub fn compile_with(scene: &Scene, cycle: Option<Cycle>) -> Result<Self, SceneError> {
+        Self::compile_as(scene, cycle, Shard::WHOLE)
+    }
+
+    fn compile_as(scene: &Scene, cycle: Option<Cycle>, shard: Shard) -> Result<Self, SceneError> {
         let seed = seed_words(scene.seed);
         let gusts = cycle.as_ref().map_or(GUST_ROWS / GUST_SPACING, Cycle::gusts);
         let cells = cycle.as_ref().map_or(TURBULENCE_X, Cycle::cell_period);
@@ -120,7 +137,7 @@ impl CompiledScene {
             block.flutter_per_step = cycle.flutter(scene.dt_s);
         }
         let seedlings = seedlings(scene, solids.own(), |x, z| foot_height(&block, &tables, x, z))?;
-        let forest = Forest::plant(seedlings, scene.gravity_m_s2);
+        let mut forest = Forest::plant(seedlings, scene.gravity_m_s2);
         solids.add_trunks(scene, &forest);
         let shelter = ShelterGrids::of(scene, solids.own(), &forest);
         if let Some(grids) = &shelter {
@@ -141,12 +158,16 @@ impl CompiledScene {
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
+        let shard_rows = ShardRows::of(shard, scene, &forest);
+        forest.keep(shard_rows.batches.clone());
         block.solids = solids.tabulate(scene, &block, &mut tables);
         let births = Births::of(scene, seed, cycle.as_ref());
         let (carriers, points) = force_carriers(scene, len32(tables.len()));
         tables.extend(points);
         let (populations, forces) = populations_of(scene, &carriers, len32(tables.len()), births.lead());
-        block.populations = populations;
+        if shard.is_first() {
+            block.populations = populations;
+        }
         tables.extend(forces);
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(scene, &motions, block.table_species));
@@ -157,10 +178,12 @@ impl CompiledScene {
             tables: tables.into(),
             forest: forest.into(),
             solids: solids.into(),
-            histories: history_runs(scene).into(),
+            histories: if shard.is_first() { history_runs(scene).into() } else { Arc::default() },
             births: births.into(),
-            carriers: carriers.into_iter().filter(|run| run.count != 0).collect(),
+            carriers: carriers.into_iter().filter(|run| shard.is_first() && run.count != 0).collect(),
             cycle,
+            shard,
+            shard_rows,
         })
     }
 
@@ -226,15 +249,27 @@ impl CompiledScene {
 
     /// Number of rows of each store of a world of this scene, in the order of [`World::stores`](crate::World::stores).
     pub fn sizes(&self) -> Vec<StoreSize> {
+        // Particles are not divided.
+        let of_first = |rows: usize| if self.shard.is_first() { rows } else { 0 };
         vec![
-            StoreSize { store: Leaves::NAME, rows: self.scene.leaf_count() as usize },
+            StoreSize { store: Leaves::NAME, rows: self.shard_rows.leaf_rows() as usize },
             StoreSize { store: Branches::NAME, rows: self.forest.len() },
             StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block) },
-            StoreSize { store: ParticleStore::NAME, rows: self.scene.particle_count() as usize },
-            StoreSize { store: TallyStore::NAME, rows: TallyStore::rows_of(&self.scene) },
-            StoreSize { store: HistoryStore::NAME, rows: HistoryStore::rows_of(&self.scene) },
+            StoreSize { store: ParticleStore::NAME, rows: of_first(self.scene.particle_count() as usize) },
+            StoreSize { store: TallyStore::NAME, rows: of_first(TallyStore::rows_of(&self.scene)) },
+            StoreSize { store: HistoryStore::NAME, rows: of_first(HistoryStore::rows_of(&self.scene)) },
             StoreSize { store: Burns::NAME, rows: Burns::rows_of(&self.scene) },
         ]
+    }
+
+    /// The part of the scene that this is.
+    pub fn shard(&self) -> Shard {
+        self.shard
+    }
+
+    /// The leaves and trees of that part.
+    pub fn shard_rows(&self) -> &ShardRows {
+        &self.shard_rows
     }
 
     /// Checks that a simulator with stores of these sizes can go on with this scene.

@@ -68,9 +68,15 @@ pub(crate) fn leaf_grow(
 }
 
 /// Counts the leaves that hang on every segment.
-pub(crate) fn count_leaves(branches: &mut Branches, cx: &Context<'_>, leaves: &Leaves) {
-    for slot in 0..cx.scene.tree_leaf_count {
-        if leaf_state(leaves.place[slot as usize].bits) == STATE_ATTACHED {
+pub(crate) fn count_leaves(
+    compiled: &CompiledScene,
+    branches: &mut Branches,
+    cx: &Context<'_>,
+    leaves: &Leaves,
+) {
+    let rows = compiled.shard_rows();
+    for (slot, place) in (rows.first_row..cx.scene.tree_leaf_count).zip(&leaves.place) {
+        if leaf_state(place.bits) == STATE_ATTACHED {
             branches.leaf_count[petiole_of(cx, slot).segment as usize] += 1;
         }
     }

@@ -106,8 +106,9 @@ pub const MAX_PATH_KEYS: usize = 256;
 pub const DEEPEST_BED_M: f32 = 2.0;
 /// Most keys the path of a camera may have.
 pub const MAX_CAMERA_KEYS: usize = 1024;
-/// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
-pub const MAX_LEAVES: u32 = 1 << 28;
+/// Most leaves a scene may have, over all sources. The number of a leaf goes up by that of all with every life of its slot, and begins anew
+/// behind 2^32: of a scene with the most leaves every fifth life has a number for the second time, of one with a million the 4296th.
+pub const MAX_LEAVES: u32 = 1 << 30;
 
 /// Most populations of particles a scene may have: a particle keeps its population in four bits.
 pub const MAX_POPULATIONS: usize = 16;

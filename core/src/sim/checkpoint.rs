@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Saves a world and brings it back to the bit.
 //!
-//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock with the particles born in each population, and of every store the
+//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, number and count of the shard that it is, the clock with the particles born in each population, and of every store the
 //! number of rows and the columns, all little-endian, and at the end the CRC-32 of everything before. It stands alone: the
 //! scene travels inside (motion table files that a species names do not).
 
@@ -10,13 +10,13 @@ use std::io::{self, Write};
 
 use super::world::World;
 use crate::clock::Clock;
-use crate::compile::CompiledScene;
+use crate::compile::{CompiledScene, Shard};
 use crate::error::SceneError;
 use crate::scene::{MAX_POPULATIONS, Scene};
 use crate::store::{Store, StoreSize};
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 impl World {
     /// Writes a checkpoint.
@@ -30,6 +30,9 @@ impl World {
         out.write_all(&VERSION.to_le_bytes())?;
         out.write_all(&(scene.len() as u64).to_le_bytes())?;
         out.write_all(scene.as_bytes())?;
+        let shard = self.compiled.shard();
+        out.write_all(&shard.number().to_le_bytes())?;
+        out.write_all(&shard.count().to_le_bytes())?;
         out.write_all(&self.clock.step().to_le_bytes())?;
         out.write_all(&self.clock.wind_travel_m().to_le_bytes())?;
         for born in &self.clock.born()[..self.compiled.scene().particles.len()] {
@@ -66,7 +69,11 @@ impl World {
         let text =
             std::str::from_utf8(rest.take(length)?).map_err(|_| reject("its scene is not text".into()))?;
         let scene = Scene::from_ron(text, file)?;
-        let compiled = CompiledScene::compile(&scene)?;
+        let (number, count) = (u32::from_le_bytes(rest.array()?), u32::from_le_bytes(rest.array()?));
+        let shard = Shard::new(number, count).ok_or_else(|| {
+            reject(format!("it is shard {number} of {count}: there is none of that number"))
+        })?;
+        let compiled = CompiledScene::compile_shard(&scene, shard)?;
         let step = u32::from_le_bytes(rest.array()?);
         let travel = f64::from_le_bytes(rest.array()?);
         let mut born = [0; MAX_POPULATIONS];

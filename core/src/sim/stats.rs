@@ -82,6 +82,13 @@ impl Stats {
         Self::from_counters(&counters, step)
     }
 
+    /// The same without so many rows that hold no leaf.
+    #[must_use]
+    pub fn without_unused(mut self, rows: u32) -> Self {
+        self.leaves.dormant -= rows;
+        self
+    }
+
     /// Counts from the raw counters of a kernel.
     pub fn from_counters(counters: &[u32; COUNTER_COUNT as usize], step: u32) -> Self {
         let leaves = LeafStats {

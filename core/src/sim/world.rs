@@ -8,9 +8,9 @@ use super::lead::lead_in;
 use super::lying_snow::{lie, rounds_of};
 use super::stats::Stats;
 use crate::arith::hash::mix;
-use crate::blocks::StepBlock;
+use crate::blocks::{NEVER, StepBlock};
 use crate::clock::Clock;
-use crate::compile::{CompiledScene, Cycle, lifetime_steps, release_step};
+use crate::compile::{CompiledScene, Cycle, Shard, lifetime_steps, release_step};
 use crate::context::Context;
 use crate::convert::len32;
 use crate::device::leaf::air::leaf_sample_air;
@@ -76,6 +76,18 @@ impl World {
         Self::fill(compiled)
     }
 
+    /// A shard of the world of a scene that a file or preset stands for, which errors name. Its rows are those of the whole, and stay so with
+    /// every step; its hash is its share of the sum.
+    ///
+    /// # Errors
+    /// As [`World::build`]; scenes with litter, weather or leaves that burn, and more shards than leaves.
+    pub fn build_shard(scene: &Scene, file: &str, shard: Shard) -> Result<Self, SceneError> {
+        scene.validate(file)?;
+        let compiled =
+            CompiledScene::compile_shard(scene, shard).map_err(|error| error.of_file(&scene.name, file))?;
+        Self::fill(compiled)
+    }
+
     /// A world that repeats after about `seconds`, to be stepped [`Cycle::run_in`] steps before it does: from then on
     /// every leaf is where another one was [`Cycle::steps`] before, to the bit, and trees nearly so. `file` names the
     /// scene in errors. A checkpoint of it does not go on repeating.
@@ -93,13 +105,16 @@ impl World {
 
     /// A world of a compiled scene with every word of its stores zero, to be filled.
     pub fn zeroed(compiled: CompiledScene, clock: Clock) -> Self {
-        let leaves = Leaves::zeroed(compiled.scene().leaf_count() as usize);
-        let branches = Branches::zeroed(compiled.forest().len());
-        let bed = Bed::zeroed(Bed::rows_of(compiled.block()));
-        let particles = ParticleStore::zeroed(compiled.scene().particle_count() as usize);
-        let tallies = TallyStore::zeroed(TallyStore::rows_of(compiled.scene()));
-        let history = HistoryStore::zeroed(HistoryStore::rows_of(compiled.scene()));
-        let burns = Burns::zeroed(Burns::rows_of(compiled.scene()));
+        let sizes = compiled.sizes();
+        let [leaves, branches, bed, particles, tallies, history, burns] =
+            std::array::from_fn(|store| sizes[store].rows);
+        let leaves = Leaves::zeroed(leaves);
+        let branches = Branches::zeroed(branches);
+        let bed = Bed::zeroed(bed);
+        let particles = ParticleStore::zeroed(particles);
+        let tallies = TallyStore::zeroed(tallies);
+        let history = HistoryStore::zeroed(history);
+        let burns = Burns::zeroed(burns);
         Self { compiled, clock, leaves, branches, bed, particles, tallies, history, burns }
     }
 
@@ -108,7 +123,9 @@ impl World {
         let clock = Clock::new(compiled.scene().dt_s);
         let mut world = Self::zeroed(compiled, clock);
         world.branches = world.compiled.forest().at_rest();
-        world.particles = ParticleStore::dormant(world.compiled.scene());
+        if world.compiled.shard().is_first() {
+            world.particles = ParticleStore::dormant(world.compiled.scene());
+        }
         let Self { compiled, clock, leaves, branches, bed, .. } = &mut world;
         let step = compiled.step_block(clock);
         let cx = compiled.context(&step);
@@ -117,12 +134,13 @@ impl World {
         let runs = Mutex::new(runs_of(leaves.as_mut()));
         let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
         on_all(|| {
-            while let Some((first, run)) = next() {
+            while let Some((row, run)) = next() {
+                let first = row + compiled.shard_rows().first_row as usize;
                 place_leaves(compiled, &cx, still, tables, run, first);
             }
         });
         drop(runs);
-        count_leaves(branches, &cx, leaves);
+        count_leaves(compiled, branches, &cx, leaves);
         if let Some(litter) = &compiled.scene().ground.litter {
             strew(&cx, litter, leaves, leaves.len() - compiled.scene().bed_leaf_count() as usize);
             lay_all(&cx, leaves, bed);
@@ -144,11 +162,15 @@ impl World {
 
     /// Counts over all leaves.
     pub fn stats(&self) -> Stats {
-        Stats::of(&self.leaves, self.clock.step())
+        let unused = self.compiled.shard_rows().unused_rows();
+        Stats::of(&self.leaves, self.clock.step()).without_unused(unused)
     }
 
-    /// Counts over the populations of particles.
+    /// Counts over the populations of particles; none in a shard that has no particles.
     pub fn particle_stats(&self) -> Vec<ParticleStats> {
+        if !self.compiled.shard().is_first() {
+            return Vec::new();
+        }
         ParticleStats::of(self.compiled.scene(), &self.particles, &self.tallies)
     }
 
@@ -232,12 +254,31 @@ impl World {
     }
 
     /// A 64-bit fingerprint of clock and stores: equal exactly when every bit of them is equal, but for one chance in
-    /// 2^64. A sum over rows, so that it can be taken in any order.
+    /// 2^64. A sum over rows, so that it can be taken in any order; of a shard its share of the sum, which begins anew behind 2^64.
     pub fn state_hash(&self) -> u64 {
+        self.clock_hash().wrapping_add(self.store_hash())
+    }
+
+    /// The share of the clock, which is the first shard's.
+    fn clock_hash(&self) -> u64 {
+        if !self.compiled.shard().is_first() {
+            return 0;
+        }
         let seed = mix(u64::from(self.clock.step()), self.clock.wind_travel_m().to_bits());
         let born = &self.clock.born()[..self.compiled.scene().particles.len()];
-        let seed = born.iter().fold(seed, |seed, born| mix(seed, *born));
-        seed.wrapping_add(hash_stores(&self.stores()))
+        born.iter().fold(seed, |seed, born| mix(seed, *born))
+    }
+
+    /// The share of the rows that this is the world of.
+    fn store_hash(&self) -> u64 {
+        let rows = self.compiled.shard_rows();
+        let unused = rows.unused_rows() as usize;
+        let own = |store: &dyn Store| match store.name() {
+            Leaves::NAME => (unused..store.rows(), u64::from(rows.slots.start)),
+            Branches::NAME => (rows.segments.clone(), rows.segments.start as u64),
+            _ => (0..store.rows(), 0),
+        };
+        hash_stores(&self.stores(), own)
     }
 
     /// The block of the present step, for [`World::context`].
@@ -263,7 +304,7 @@ fn runs_of(leaves: LeavesMut<'_>) -> impl Iterator<Item = (usize, LeavesMut<'_>)
     })
 }
 
-/// Puts the leaves of a run of slots from `first` on where they are at time zero.
+/// Puts the leaves of a run of slots from `first` on where they are at time zero. Those before a shard's own never come to be.
 fn place_leaves(
     compiled: &CompiledScene,
     cx: &Context<'_>,
@@ -275,13 +316,15 @@ fn place_leaves(
     let scene = compiled.scene();
     let total = scene.leaf_count();
     let mut source_first = scene.tree_leaf_count() as usize;
-    for slot in first..source_first.min(first + leaves.len()) {
+    let unused = (compiled.shard_rows().slots.start as usize).saturating_sub(first).min(leaves.len());
+    leaves.schedule[..unused].iter_mut().for_each(|schedule| schedule.event = NEVER);
+    for slot in first + unused..source_first.min(first + leaves.len()) {
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
         leaf_grow(compiled, cx, branches, tables, &mut leaves.row_mut(slot - first), slot as u32);
     }
     for (index, source) in (0..).zip(&scene.sources) {
         let lifetime = i64::from(lifetime_steps(scene, source));
-        let start = source_first.max(first);
+        let start = source_first.max(first + unused);
         source_first += source.count as usize;
         for slot in start..source_first.min(first + leaves.len()) {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]

@@ -27,6 +27,8 @@ pub struct TreeBatch {
     pub first: u32,
     /// The blocks, from the trunks up.
     pub blocks: Vec<Block>,
+    /// Its trees, by their number in the forest.
+    pub trees: Range<usize>,
     /// Leaf slots of its trees.
     pub slots: Range<u32>,
 }
@@ -210,5 +212,5 @@ pub(super) fn lay_out(
         };
         limbs = limbs.iter().flat_map(grow).collect();
     }
-    TreeBatch { first: start, blocks, slots }
+    TreeBatch { first: start, blocks, trees: first..first + children.len(), slots }
 }

@@ -100,9 +100,16 @@ impl Forest {
         self.segments.len()
     }
 
-    /// Returns true if there are no trees.
+    /// Returns true if there are no trees that are stepped.
     pub fn is_empty(&self) -> bool {
-        self.segments.is_empty()
+        self.batches.is_empty()
+    }
+
+    /// Steps no trees but those of some batches from now on. Rows stay as they are.
+    pub(crate) fn keep(&mut self, batches: Range<usize>) {
+        self.batches = self.batches[batches].to_vec();
+        let (order, level_ends) = order_of(&self.batches);
+        (self.order, self.level_ends) = (order.into(), level_ends);
     }
 
     /// Constants of the segments, row by row.
@@ -110,7 +117,7 @@ impl Forest {
         &self.segments
     }
 
-    /// All rows, level by level over the whole forest.
+    /// Rows of the trees that are stepped, level by level over all of them.
     pub fn order(&self) -> &Arc<[u32]> {
         &self.order
     }
@@ -120,7 +127,7 @@ impl Forest {
         &self.level_ends
     }
 
-    /// The batches, in the order of their rows.
+    /// The batches that are stepped, in the order of their rows.
     pub fn batches(&self) -> &[TreeBatch] {
         &self.batches
     }
@@ -130,7 +137,7 @@ impl Forest {
         &self.trees
     }
 
-    /// All segments in still air, with no leaves.
+    /// The segments that are stepped in still air, with no leaves.
     pub fn at_rest(&self) -> Branches {
         let mut branches = Branches::zeroed(self.len());
         for &row in self.order.iter() {

@@ -13,6 +13,7 @@ mod litter;
 mod long;
 mod particles;
 mod random_worlds;
+mod shards;
 mod stepped;
 mod stores;
 mod trees;

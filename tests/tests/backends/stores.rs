@@ -55,6 +55,11 @@ fn all<'a>(world: &'a World, pebbles: &'a Pebbles) -> Vec<&'a dyn Store> {
     world.stores().into_iter().chain([pebbles as &dyn Store]).collect()
 }
 
+/// A fingerprint of all rows.
+fn hash_all(stores: &[&dyn Store]) -> u64 {
+    hash_stores(stores, |store| (0..store.rows(), 0))
+}
+
 #[test]
 fn a_further_store_is_saved_hashed_copied_compared_and_measured() {
     let (world, full, mut empty) = (world(), pebbles(), Pebbles::zeroed(37));
@@ -85,21 +90,21 @@ fn a_further_store_is_saved_hashed_copied_compared_and_measured() {
     let cut = read_stores(&bytes[..bytes.len() - 1], "memory", &mut [&mut Pebbles::zeroed(37)]);
     assert!(matches!(cut, Err(SceneError::Checkpoint { .. })), "leaves are no pebbles");
 
-    let hash = hash_stores(&all(&world, &full));
-    assert_eq!(hash, hash_stores(&all(&back, &empty)), "equal stores, equal hashes");
+    let hash = hash_all(&all(&world, &full));
+    assert_eq!(hash, hash_all(&all(&back, &empty)), "equal stores, equal hashes");
     let found = difference_of(&all(&world, &full), &all(&back, &empty));
     assert!(found.is_none(), "{found:?}");
     empty.number[4] ^= 1;
     let found = difference_of(&all(&world, &full), &all(&back, &empty));
     assert_eq!((found.of("pebbles").bit_rows, found.of("pebbles").integer_rows), (1, 1), "{found:?}");
-    assert_ne!(hash, hash_stores(&all(&back, &empty)), "an integer counts");
+    assert_ne!(hash, hash_all(&all(&back, &empty)), "an integer counts");
     copy_stores(&[&full], &mut [&mut empty]);
     assert_eq!(empty, full, "copied");
     empty.size_m[36] += 0.5;
     let found = difference_of(&all(&world, &full), &all(&back, &empty));
     assert_eq!((found.of("pebbles").bit_rows, found.of("pebbles").integer_rows), (1, 0), "{found:?}");
     assert!((found.of("pebbles").largest("size_m") - 0.5).abs() < 1e-6, "{found:?}");
-    assert_ne!(hash, hash_stores(&all(&back, &empty)), "a float counts");
+    assert_ne!(hash, hash_all(&all(&back, &empty)), "a float counts");
     empty.size_m[36] = f32::NAN;
     let found = difference_of(&all(&world, &full), &all(&back, &empty));
     assert!(!found.is_finite(), "what is not a number is infinitely far off: {found:?}");

@@ -81,16 +81,16 @@ fn scenes_that_are_broken() {
     let wind = b"(wind: (speed: Beaufort(13)))";
     refuse("wind.ron", wind, &["wind.ron: wind.speed is 13", "0 to 12"]);
     let count = b"(sources: [(count: 0)])";
-    refuse("count.ron", count, &["count.ron: sources[0].count is 0", "1 to 268435456"]);
-    let many = b"(sources: [(count: 268435456, release: Rate(per_s: 1e8, from_s: 0.0)), (count: 1)])";
-    refuse("many.ron", many, &["many.ron: sources is 268435457 leaves", "268435456"]);
+    refuse("count.ron", count, &["count.ron: sources[0].count is 0", "1 to 1073741824"]);
+    let many = b"(sources: [(count: 1073741824, release: Rate(per_s: 1e9, from_s: 0.0)), (count: 1)])";
+    refuse("many.ron", many, &["many.ron: sources is 1073741825 leaves", "1073741824"]);
     let litter = b"(ground: (litter: Some((size_m: (300, 4)))))";
     refuse("litter.ron", litter, &["litter.ron: ground.litter.size_m.x is 300", "1 to 256 m"]);
     let litter = b"(ground: (litter: Some((raised_deg: (20, 10)))))";
     refuse("raised.ron", litter, &["raised.ron: ground.litter.raised_deg is (20.0, 10.0)", "rising order"]);
     let litter =
         b"(species: [(size_m: 0.005)], ground: (litter: Some((size_m: (256, 256), leaf_area_index: 30))))";
-    refuse("bed.ron", litter, &["bed.ron: ground.litter.leaf_area_index is", "at most 268435456 leaves"]);
+    refuse("bed.ron", litter, &["bed.ron: ground.litter.leaf_area_index is", "at most 1073741824 leaves"]);
     let deep = b"(ground: (litter: Some((leaf_area_index: 30.5))))";
     refuse("deep.ron", deep, &["deep.ron: ground.litter.leaf_area_index is 30.5", "0 to 30"]);
     let deep = b"(ground: (litter: Some((leaf_area_index: 30, bulk_density_kg_m3: 0.0))))";
@@ -268,11 +268,11 @@ fn numbers_of_leaves_that_make_no_sense() {
         let refuse = |leaves, essentials: &[&str]| {
             assert_refused(&there, &[command, "autumn-park", "--leaves", leaves], essentials);
         };
-        for leaves in ["0", "268435457", "1e30", "99999999999999999999999", "1.5", "few", "-5"] {
+        for leaves in ["0", "1073741825", "1e30", "99999999999999999999999", "1.5", "few", "-5"] {
             refuse(leaves, &[leaves]);
         }
-        refuse("0", &["'0'", "--leaves", "1 to 268435456"]);
-        refuse("1", &["autumn-park", "--leaves is 1", "2 to 268435456"]);
+        refuse("0", &["'0'", "--leaves", "1 to 1073741824"]);
+        refuse("1", &["autumn-park", "--leaves is 1", "2 to 1073741824"]);
     }
     assert_refused(&there, &["bench", "--leaves", "10,0"], &["'0'", "--leaves"]);
     assert_refused(&there, &["bench", "--leaves", ""], &["--leaves"]);

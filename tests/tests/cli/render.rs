@@ -196,7 +196,7 @@ fn numbers_that_make_no_sense() {
         refuse(&[&format!("--speed={rate}")], &["--speed", "0.001 to 1000"]);
     }
     refuse(&["--frames", "1000000", "--speed", "1000", "--fps", "1"], &["steps", "1000000000"]);
-    refuse(&["--leaves", "1"], &["--leaves is 1", "to 268435456"]);
+    refuse(&["--leaves", "1"], &["--leaves is 1", "to 1073741824"]);
 }
 
 #[test]
