@@ -79,7 +79,7 @@ mod run;
 mod study;
 mod view;
 
-pub use run::{backend, cancel, drawing, frame_steps, studio};
+pub use run::{backend, cancel, drawing, frame_steps, lasting, studio};
 
 /// Scenes by name, the pictures of their leaves, and values put into them where a path leads.
 pub mod scenes {

@@ -212,8 +212,8 @@ impl Gpu {
         (result, first)
     }
 
-    /// Returns true if the device is lost: then it maps no buffer.
-    fn is_lost(&self) -> bool {
+    /// Returns true if the device is lost, whatever was reported first: then it maps no buffer.
+    pub fn is_lost(&self) -> bool {
         let (sender, receiver) = std::sync::mpsc::channel();
         let _ = self.caught(|| {
             let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
@@ -266,7 +266,11 @@ impl Gpu {
     }
 }
 
-/// Keeps the first report; later ones follow from it.
+/// Keeps the first report, as later ones follow from it; but the loss of the device is the reason for whatever was reported before.
 fn report(health: &Health, error: SimError) {
-    health.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+    let mut health = health.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_loss = |error: &SimError| matches!(error, SimError::DeviceLost { .. });
+    if health.as_ref().is_none_or(|known| is_loss(&error) && !is_loss(known)) {
+        *health = Some(error);
+    }
 }

@@ -19,13 +19,28 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// The bytes of a regular file of at most `most` bytes.
+/// Opens a regular file of a folder, not one elsewhere that a link in the folder leads to.
 ///
 /// # Errors
-/// Those of [`open`]; [`ErrorKind::FileTooLarge`].
-pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+/// Those of [`open`]; [`ErrorKind::InvalidInput`] for such a link.
+pub(crate) fn open_in(folder: &Path, name: &str) -> io::Result<File> {
+    let path = folder.join(name);
+    // Where there is nothing, opening says so.
+    if let (Ok(folder), Ok(there)) = (folder.canonicalize(), path.canonicalize())
+        && !there.starts_with(folder)
+    {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "a link that leads out of its folder"));
+    }
+    open(&path)
+}
+
+/// The bytes of a regular file of a folder, of at most `most` bytes.
+///
+/// # Errors
+/// Those of [`open_in`]; [`ErrorKind::FileTooLarge`].
+pub(crate) fn read_in(folder: &Path, name: &str, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    open_in(folder, name)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         return Err(io::Error::new(ErrorKind::FileTooLarge, format!("more than {most} bytes")));
     }

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use windfall::scenes::{SceneTree, Setting, fit_bodies, load_scene};
 use windfall_core::Scene;
-use windfall_core::scene::{ObjectShape, Sky};
+use windfall_core::scene::{NamedFiles, ObjectShape, Sky};
 
 use crate::errors::{of_text, raise};
 
@@ -62,10 +62,13 @@ impl PyScene {
         Self::valid(py, scene, OF_DICT.into())
     }
 
-    /// The scene that a preset's name or a file's path stands for.
+    /// The scene that a preset's name or a file's path stands for. Files that the scene names must lie in its folder or below, unless
+    /// `allow_outside`.
     #[staticmethod]
-    fn load(py: Python<'_>, name: String) -> PyResult<Self> {
-        let scene = py.detach(|| load_scene(&name)).map_err(|error| raise(py, &error))?;
+    #[pyo3(signature = (name, *, allow_outside=false))]
+    fn load(py: Python<'_>, name: String, allow_outside: bool) -> PyResult<Self> {
+        let allowed = if allow_outside { NamedFiles::Anywhere } else { NamedFiles::Below };
+        let scene = py.detach(|| load_scene(&name, allowed)).map_err(|error| raise(py, &error))?;
         Ok(Self { scene, file: name })
     }
 

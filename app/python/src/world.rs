@@ -11,7 +11,7 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use windfall::backend::{BackendArguments, BackendKind};
 use windfall::frame_steps::FrameSteps;
 use windfall::scenes::check_memory;
-use windfall_core::{SceneError, World};
+use windfall_core::{Scene, SceneError, World};
 
 use crate::buffers::{Column, Memory};
 use crate::counts::Counts;
@@ -145,27 +145,34 @@ impl PyWorld {
         let (of, file) = PyScene::of(scene)?;
         let name = file.clone();
         let build = move || {
-            check_memory(&name, of.leaf_count())?;
+            check_memory(&name, &of)?;
             Ok(World::build_named(&of, &name)?)
         };
         Self::make(scene.py(), build, file, arguments)
     }
 
-    /// Goes on from a checkpoint: a file that `save` or `windfall simulate --checkpoint` wrote.
+    /// Goes on from a checkpoint: a file that `save` or `windfall simulate --checkpoint` wrote. Files that its scene names must lie in its
+    /// folder or below, unless `allow_outside`.
     #[staticmethod]
-    #[pyo3(signature = (path, backend="auto", *, threads=None, adapter=None))]
+    #[pyo3(signature = (path, backend="auto", *, threads=None, adapter=None, allow_outside=false))]
     fn open(
         py: Python<'_>,
         path: PathBuf,
         backend: &str,
         threads: Option<usize>,
         adapter: Option<String>,
+        allow_outside: bool,
     ) -> PyResult<Self> {
         let file = path.display().to_string();
         let name = file.clone();
         let read = move || {
-            let bytes = std::fs::read(&path).map_err(|source| SceneError::Read { path, source })?;
-            Ok(World::from_checkpoint(&bytes, &name)?)
+            let bytes =
+                std::fs::read(&path).map_err(|source| SceneError::Read { path: path.clone(), source })?;
+            let check = |scene: &Scene| match path.parent() {
+                Some(folder) if !allow_outside => scene.check_files_below(folder, &name),
+                _ => Ok(()),
+            };
+            Ok(World::from_checked_checkpoint(&bytes, &name, check)?)
         };
         Self::make(py, read, file, choice(backend, threads, adapter)?)
     }

@@ -58,7 +58,7 @@ def export(
         first, last = frames
     with scene_file(scene) as file:
         chosen = ["--backend", backend] if backend else []
-        run(["export", file, "--frames", f"{first}..{last}", "--fps", str(fps), "--out", path, *chosen])
+        run(["export", file, "--allow-outside", "--frames", f"{first}..{last}", "--fps", str(fps), "--out", path, *chosen])
     return Path(path)
 
 

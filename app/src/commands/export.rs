@@ -11,10 +11,11 @@ use windfall_core::{Simulator, World};
 use windfall_render::trees::SceneTrees;
 
 use crate::export::{self, Content, Estimate, Format, Job, Observer, check_space};
-use crate::run::backend::{Backend, BackendArguments};
+use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::frame_range::FrameRange;
 use crate::run::frame_steps::{FrameSteps, LoopFrames};
+use crate::run::lasting::Lasting;
 use crate::run::looped::build_cycle;
 use crate::run::parse::frame_rate;
 use crate::run::parse::loop_length;
@@ -92,7 +93,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let scene = world.compiled.scene().clone();
     let choice = arguments.backend.choose()?;
-    let mut backend = choice.device.simulator(&world)?;
+    let mut backend = Lasting::new(&choice.device, &world)?;
     let identity = work_identity(
         "export",
         &scene,
@@ -178,7 +179,7 @@ impl Steps {
 /// A simulation that goes on from frame to frame.
 struct Clip<'a> {
     cancel: &'a Cancel,
-    backend: &'a mut Backend,
+    backend: &'a mut Lasting,
     stepping: Stepping,
     step: u64,
 }

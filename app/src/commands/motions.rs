@@ -11,7 +11,7 @@ use windfall_core::scene::Species;
 use windfall_core::{Scene, SceneError};
 
 use crate::files::{OutputFolder, WriteError};
-use crate::run::scene_arguments::DEFAULT_SCENE;
+use crate::run::scene_arguments::{DEFAULT_SCENE, OutsideArguments};
 use crate::run::terminal;
 
 /// Options of `windfall motions`.
@@ -20,6 +20,8 @@ pub struct Arguments {
     /// Preset or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     scene: Option<String>,
+    #[command(flatten)]
+    outside: OutsideArguments,
     /// Folder for the files, one SPECIES.motions for each species; made if it is not there.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -31,7 +33,7 @@ pub struct Arguments {
 /// A scene that cannot be used, or a folder that cannot be written to; then no file has changed.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT_SCENE);
-    let scene = Scene::load(name)?;
+    let scene = Scene::load_naming(name, arguments.outside.named_files())?;
     check_names(&scene, name)?;
     let texts: Vec<String> = scene
         .species

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use serde_json::json;
-use windfall_core::{Scene, World};
+use windfall_core::{Contract, Scene, World};
 use windfall_render::memory_s;
 use windfall_wgpu::describe_adapter;
 
@@ -32,6 +32,8 @@ use crate::view::{Overlays, Show};
 
 /// Most steps of a clip.
 const MAX_STEPS: u64 = 1_000_000_000;
+/// Times that a device may be lost before the clip is given up.
+const MOST_LOSSES: u32 = 3;
 /// Frames of a picture and of a clip when the user does not say.
 const DEFAULT_FRAMES: (u32, u32) = (60, 240);
 
@@ -159,16 +161,22 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let drawing = Drawing::without_window(&arguments.backend)?;
     let identity = identity(arguments, &scene, &drawing, size, (first, last));
     let part = is_part.then_some(FrameRange { first, last });
-    let mut clip = KeptClip::begin(&output, size, arguments.fps, part, (&identity, arguments.restart))?;
+    let contract = drawing.device.contract();
+    let begin = |restart| KeptClip::begin(&output, size, arguments.fps, part, (&identity, restart));
+    let mut clip = begin(arguments.restart)?;
     let world = match &cycle {
         Some((world, _)) => world,
         None => &World::build_named(&scene, name)?,
     };
-    let mut studio = studio(arguments, world, drawing, size, &cancel)?;
-    if let Some((_, cycle)) = &cycle {
-        let dt_s = studio.dt_s();
-        studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
-    }
+    let set_up = |drawing| -> anyhow::Result<Studio> {
+        let mut studio = studio(arguments, world, drawing, size, &cancel)?;
+        if let Some((_, cycle)) = &cycle {
+            let dt_s = studio.dt_s();
+            studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
+        }
+        Ok(studio)
+    };
+    let mut studio = set_up(drawing)?;
     let shots = ShotList {
         stride: output.stride(arguments.fps),
         first: timeline.lead() + first,
@@ -177,7 +185,18 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         adapts: (!is_still || is_part).then_some(scene.view.lens.exposure),
         needs_all: !arguments.show.is_empty(),
     };
-    let filmed = film(&mut studio, &mut clip, &shots, &timeline, 1.0 / rate, &cancel);
+    let mut filmed = film(&mut studio, &mut clip, &shots, &timeline, 1.0 / rate, &cancel);
+    for _ in 0..MOST_LOSSES {
+        let Err(error) = &filmed else { break };
+        if cancel.check().is_err() || !studio.is_lost() {
+            break;
+        }
+        say_lost(error, contract);
+        drop((studio, clip));
+        clip = begin(false)?;
+        studio = set_up(Drawing::after_loss(&arguments.backend)?)?;
+        filmed = film(&mut studio, &mut clip, &shots, &timeline, 1.0 / rate, &cancel);
+    }
     if cancel.check().is_err() {
         let kept = (first..=last).filter(|&number| clip.has(number)).count();
         if kept > 0 {
@@ -190,6 +209,17 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     filmed?;
     let path = clip.finish((!is_part).then_some(last + 1))?;
     terminal::print(&format!("{}\n", path.display()))
+}
+
+/// Says that a device is lost, and what the rest of the clip is drawn with.
+fn say_lost(error: &anyhow::Error, contract: Contract) {
+    let bits = match contract {
+        Contract::Exact => "with the same bits",
+        Contract::Tolerant => "which rounds otherwise",
+    };
+    terminal::note(&format!(
+        "{error}; going on with a new device that draws, and simulating on the cpu, {bits}"
+    ));
 }
 
 /// Number of frames before a loop that show in its first: of trails, of motion, and of what the lens has adapted to.

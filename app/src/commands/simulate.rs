@@ -8,14 +8,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use indicatif::ProgressBar;
-use windfall_core::leaf::LEAF_BYTES;
-use windfall_core::{Contract, Simulator, World};
+use windfall_core::scene::NamedFiles;
+use windfall_core::{Contract, Scene, Simulator, World};
 
 use crate::files::{Identity, OutputFile, WriteError};
-use crate::run::backend::{Backend, BackendArguments};
+use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::kept_simulation::{KeptSimulation, write_checkpoint};
-use crate::run::memory::check_memory;
+use crate::run::lasting::Lasting;
+use crate::run::memory::check_state;
 use crate::run::parse::whole;
 use crate::run::progress;
 use crate::run::report::Report;
@@ -75,7 +76,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
         (Some(scene), _) => World::build_named(scene, arguments.scene.name())?,
-        (None, path) => read_checkpoint(path.as_deref().unwrap_or(Path::new("")))?,
+        (None, path) => {
+            let allowed = arguments.scene.outside.named_files();
+            read_checkpoint(path.as_deref().unwrap_or(Path::new("")), allowed)?
+        }
     };
     let written = checkpoint.as_ref().map(OutputFile::destination).or(tracks_at.as_deref());
     let mut kept = match written {
@@ -98,10 +102,11 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         |(_, swaying)| Swaying::go_on(swaying, arguments.steps),
     );
     if let Some(state) = kept.as_ref().and_then(KeptSimulation::state) {
-        world = read_checkpoint(&state)?;
+        // A state of this very run.
+        world = read_checkpoint(&state, NamedFiles::Anywhere)?;
     }
     let done = begun.map_or(0, |(done, _)| done);
-    let mut backend = choice.device.simulator(&world)?;
+    let mut backend = Lasting::new(&choice.device, &world)?;
     if let Some(reason) = choice.reason {
         terminal::note(&reason);
     }
@@ -158,7 +163,7 @@ fn identity(arguments: &Arguments, world: &World, contract: Contract) -> Identit
 
 /// A run on its way.
 struct Run<'a> {
-    backend: &'a mut Backend,
+    backend: &'a mut Lasting,
     tracks: Option<&'a mut Tracks<File>>,
     kept: Option<&'a mut KeptSimulation>,
     swaying: Swaying,
@@ -222,7 +227,8 @@ impl Run<'_> {
     }
 }
 
-fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
+/// The world of a checkpoint, whose scene may name files below its folder, or any.
+fn read_checkpoint(path: &Path, allowed: NamedFiles) -> anyhow::Result<World> {
     let name = path.display().to_string();
     let fail = |reason: &dyn std::fmt::Display| anyhow!("{name}: {reason}");
     // Neither a folder nor something that never ends.
@@ -230,8 +236,11 @@ fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
     if !kind.is_file() {
         return Err(fail(&"not a checkpoint file"));
     }
-    let leaves = kind.len() / LEAF_BYTES as u64;
-    check_memory(&name, u32::try_from(leaves).unwrap_or(u32::MAX))?;
+    check_state(&name, kind.len())?;
     let bytes = fs::read(path).map_err(|error| fail(&error))?;
-    Ok(World::from_checkpoint(&bytes, &name)?)
+    let check = |scene: &Scene| match (allowed, path.parent()) {
+        (NamedFiles::Below, Some(folder)) => scene.check_files_below(folder, &name),
+        _ => Ok(()),
+    };
+    Ok(World::from_checked_checkpoint(&bytes, &name, check)?)
 }

@@ -19,7 +19,7 @@ use crate::run::memory::check_memory;
 use crate::run::parse::whole;
 use crate::run::parse::within;
 use crate::run::progress;
-use crate::run::scene_arguments::DEFAULT_SCENE;
+use crate::run::scene_arguments::{DEFAULT_SCENE, OutsideArguments};
 use crate::run::terminal;
 use crate::study::drops::DropOptions;
 use crate::study::{Point, StudyFolder, Summary, Variation, points_of};
@@ -39,6 +39,8 @@ pub struct Arguments {
     /// Preset or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     scene: Option<String>,
+    #[command(flatten)]
+    outside: OutsideArguments,
     /// Variation: a path of fields in the scene, and values from the lowest to the highest with their number, or a
     /// list: wind.speed=0..20/5, sources.0.shape.radius_m=1,2,4, wind.profile=Uniform. Several make all combinations.
     /// At a variant the number of the scene's own is meant; another is named: wind.speed.Beaufort=0..6/7.
@@ -73,7 +75,7 @@ pub struct Arguments {
 /// Finished points are kept.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT_SCENE);
-    let mut scene = load_scene(name)?;
+    let mut scene = load_scene(name, arguments.outside.named_files())?;
     scene.seed = arguments.seed.unwrap_or(scene.seed);
     #[expect(clippy::cast_possible_truncation, reason = "times of an option")]
     let options = DropOptions {
@@ -83,8 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         tracks: arguments.tracks,
     };
     let points = points_of(&scene, name, &arguments.vary, &options)?;
-    let most = points.iter().map(|point| point.scene.leaf_count()).max().unwrap_or(0);
-    check_memory(name, most)?;
+    points.iter().try_for_each(|point| check_memory(name, &point.scene))?;
     let device = arguments.backend.or_cpu()?;
     let contract = device.contract();
     let cancel = Cancel::on_interrupt();

@@ -49,6 +49,7 @@ pub(crate) fn run(arguments: Arguments) -> anyhow::Result<()> {
     view::run(view::Options {
         scene,
         name: arguments.scene.name().to_owned(),
+        outside: arguments.scene.outside.named_files(),
         open: arguments.open,
         backend: arguments.backend,
         size: arguments.size,

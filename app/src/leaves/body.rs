@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use windfall_core::Scene;
-use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species, limits};
+use windfall_core::scene::{Aerodynamics, FlightModel, NamedFiles, Planform, Species, limits};
 use windfall_texgen::{BodyFacts, LeafFacts, Manifest};
 
 use super::in_season;
@@ -13,9 +13,10 @@ use super::in_season;
 /// The scene that a preset's name or a file's path stands for, its bodies fitted to their folders.
 ///
 /// # Errors
-/// A scene or a folder that cannot be used, or leaves of sizes and masses that no scene may have.
-pub fn load_scene(name: &str) -> anyhow::Result<Scene> {
-    let mut scene = Scene::load(name)?;
+/// A scene or a folder that cannot be used, files outside the scene's folder unless `allowed`, or leaves of sizes and masses that no scene may
+/// have.
+pub fn load_scene(name: &str, allowed: NamedFiles) -> anyhow::Result<Scene> {
+    let mut scene = Scene::load_naming(name, allowed)?;
     if fit_bodies(&mut scene)? {
         scene.validate(name)?;
     }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, MeanSpeed, Planform, Release, Source, SourceShape, WindParameters,
+    Aerodynamics, FlightModel, MeanSpeed, NamedFiles, Planform, Release, Source, SourceShape, WindParameters,
 };
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -140,7 +140,7 @@ fn only_bodies_without_a_planform_are_fitted() {
     }
     let file = folder.path().join("scene.ron");
     fs::write(&file, scene.to_ron()).expect("writable");
-    let loaded = load_scene(file.to_str().expect("plain")).expect("a scene with a folder");
+    let loaded = load_scene(file.to_str().expect("plain"), NamedFiles::Below).expect("a scene with a folder");
     assert!(loaded.species[0].size_m < 0.06, "fitted when it is loaded");
 }
 

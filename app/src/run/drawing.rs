@@ -34,6 +34,14 @@ impl Drawing {
         Self::choose(arguments, &instance, None)
     }
 
+    /// Devices in place of lost ones: the adapter is opened again to draw, and the processor simulates.
+    ///
+    /// # Errors
+    /// An adapter that is gone.
+    pub fn after_loss(arguments: &BackendArguments) -> anyhow::Result<Self> {
+        Ok(Self { device: arguments.cpu(), reason: None, ..Self::without_window(arguments)? })
+    }
+
     /// Devices for pictures on `surface`, or anywhere for `None`. Here `--adapter` also goes with the cpu backend: it
     /// names the adapter that draws.
     ///

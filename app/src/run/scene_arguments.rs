@@ -4,7 +4,7 @@
 
 use clap::Args;
 use windfall_core::Scene;
-use windfall_core::scene::MAX_LEAVES;
+use windfall_core::scene::{MAX_LEAVES, NamedFiles};
 
 use crate::leaves::load_scene;
 use crate::run::memory::check_memory;
@@ -26,6 +26,24 @@ pub(crate) struct SceneArguments {
     /// Seed of everything random, in place of the scene's.
     #[arg(long, value_name = "N", value_parser = whole::<u64, 0, { u64::MAX }>)]
     pub seed: Option<u64>,
+    #[command(flatten)]
+    pub outside: OutsideArguments,
+}
+
+/// Trust in what a scene file names.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(crate) struct OutsideArguments {
+    /// Let a scene file (or, with --resume, the scene in a checkpoint) name files outside its own folder: motion tables, leaves, trees, meshes,
+    /// skies. Without this it is refused.
+    #[arg(long)]
+    pub allow_outside: bool,
+}
+
+impl OutsideArguments {
+    /// Files that a scene may name.
+    pub(crate) fn named_files(self) -> NamedFiles {
+        if self.allow_outside { NamedFiles::Anywhere } else { NamedFiles::Below }
+    }
 }
 
 impl SceneArguments {
@@ -39,7 +57,7 @@ impl SceneArguments {
     /// # Errors
     /// A scene that cannot be read or used, or more leaves than memory holds.
     pub(crate) fn load(&self) -> anyhow::Result<Scene> {
-        let mut scene = load_scene(self.name())?;
+        let mut scene = load_scene(self.name(), self.outside.named_files())?;
         if let Some(seed) = self.seed {
             scene.seed = seed;
         }
@@ -47,7 +65,7 @@ impl SceneArguments {
             let scaled = scene.with_leaf_count(self.name(), leaves);
             scene = scaled.map_err(|error| option_error(error, Scene::LEAF_COUNT, "--leaves"))?;
         }
-        check_memory(self.name(), scene.leaf_count())?;
+        check_memory(self.name(), &scene)?;
         Ok(scene)
     }
 }

@@ -17,6 +17,7 @@ use crate::leaves::{self, LeafProgress};
 use crate::run::backend::Backend;
 use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
+use crate::run::planned_loss::lose_if_planned;
 use crate::run::stepping::Stepping;
 
 /// A simulator and a renderer of the same scene.
@@ -114,6 +115,11 @@ impl Studio {
         self.step
     }
 
+    /// Returns true if the device that draws is lost: this studio can do nothing more.
+    pub fn is_lost(&self) -> bool {
+        self.gpu.is_lost()
+    }
+
     /// Returns true if a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
     pub fn remembers(&self, seconds: f64, is_next: bool) -> bool {
         // The ring of trails has a sample more than their length.
@@ -153,6 +159,7 @@ impl Studio {
             self.cancel.check()?;
             let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
             let batch = self.stepping.batch().min(left);
+            lose_if_planned(&self.gpu, self.step + u64::from(batch));
             self.stepping.run(&mut self.backend, batch)?;
             self.step += u64::from(batch);
         }

@@ -7,6 +7,7 @@ use windfall_core::{Scene, Simulator, World};
 
 use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
+use crate::run::lasting::Lasting;
 
 /// Passes the world to `observe` at every step, from the beginning on, until all leaves lie on the ground or `limit_s` seconds
 /// are over. Returns the number of leaves that do not lie on the ground then.
@@ -21,7 +22,7 @@ pub(super) fn follow(
     observe: &mut dyn FnMut(&World) -> anyhow::Result<()>,
 ) -> anyhow::Result<u32> {
     let mut world = World::build(scene)?;
-    let mut simulator = device.simulator(&world)?;
+    let mut simulator = Lasting::new(device, &world)?;
     loop {
         observe(&world)?;
         let stats = world.stats().leaves;

@@ -14,7 +14,7 @@ use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 
 use super::nearest::nearest;
-use super::{ObjectShape, PRESETS, Scene, Sky};
+use super::{NamedFiles, PRESETS, Scene};
 use crate::SceneError;
 
 /// Largest scene file in bytes; sixteen sources and thirty-two species take some ten thousand.
@@ -22,20 +22,31 @@ const MAX_FILE_BYTES: u64 = 4 << 20;
 
 impl Scene {
     /// The scene that a preset's name or a file's path stands for. A file wins over a preset of the same name. The
-    /// files that it names are looked for beside it.
+    /// files that it names are looked for beside it, and must lie there or below.
     ///
     /// # Errors
     /// [`SceneError::UnknownScene`] if there is neither, [`SceneError::Read`] for a file that cannot be read, and
-    /// what [`Scene::from_ron`] finds in its text.
+    /// what [`Scene::from_ron`] finds in its text and [`Scene::check_files_below`] in what it names.
     pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
+        Self::load_naming(name_or_path, NamedFiles::Below)
+    }
+
+    /// The same for a scene that may name other files than those below its own folder.
+    ///
+    /// # Errors
+    /// Those of [`Scene::load`].
+    pub fn load_naming(name_or_path: &str, allowed: NamedFiles) -> Result<Self, SceneError> {
         let path = Path::new(name_or_path);
         match read(path) {
             Ok(bytes) => {
                 let mut scene = Self::from_ron(decode(&bytes, name_or_path)?, name_or_path)?;
                 let folder = path.parent().unwrap_or(path);
-                for named in scene.files_mut() {
+                for (_, named) in scene.files_mut() {
                     // Both parts are text, so nothing is lost.
                     *named = folder.join(&*named).to_string_lossy().into_owned();
+                }
+                if allowed == NamedFiles::Below {
+                    scene.check_files_below(folder, name_or_path)?;
                 }
                 Ok(scene)
             }
@@ -56,29 +67,6 @@ impl Scene {
                 }
             },
         }
-    }
-
-    /// Paths of the files and folders that the scene names: motion tables, leaves, trees and hulls, meshes of objects, the sky.
-    pub fn files(&self) -> Vec<String> {
-        self.clone().files_mut().into_iter().map(|named| named.clone()).collect()
-    }
-
-    /// The same, to be changed.
-    fn files_mut(&mut self) -> Vec<&mut String> {
-        let mut files = Vec::new();
-        for species in &mut self.species {
-            files.extend([&mut species.tables, &mut species.leaves].into_iter().flatten());
-        }
-        files.extend(self.tree_kinds.iter_mut().filter_map(|kind| kind.form.file_mut()));
-        for object in &mut self.objects {
-            if let ObjectShape::Mesh { file, .. } = &mut object.shape {
-                files.push(file);
-            }
-        }
-        if let Sky::Map(map) = &mut self.view.sky {
-            files.push(&mut map.path);
-        }
-        files
     }
 
     /// Reads and validates the text of a scene file. `file` is the name that errors give.

@@ -43,12 +43,24 @@ impl World {
         out.out.write_all(&crc.to_le_bytes())
     }
 
-    /// Reads a checkpoint; `file` names it in errors.
+    /// Reads a checkpoint; `file` names it in errors. Its scene may name any file.
     ///
     /// # Errors
     /// [`SceneError::Checkpoint`] for bytes that are cut short, damaged, of another version or no checkpoint at all;
     /// scene errors for a scene inside that this version rejects.
     pub fn from_checkpoint(bytes: &[u8], file: &str) -> Result<Self, SceneError> {
+        Self::from_checked_checkpoint(bytes, file, |_| Ok(()))
+    }
+
+    /// The same, once `check` allows the scene inside: before any file that it names is opened, and before memory is taken for it.
+    ///
+    /// # Errors
+    /// Those of [`World::from_checkpoint`] and of `check`.
+    pub fn from_checked_checkpoint(
+        bytes: &[u8],
+        file: &str,
+        check: impl FnOnce(&Scene) -> Result<(), SceneError>,
+    ) -> Result<Self, SceneError> {
         let reject = |reason: String| SceneError::Checkpoint { file: file.into(), reason };
         let mut rest = Reader { bytes, file };
         if bytes.len() < MAGIC.len() || rest.take(MAGIC.len() as u64)? != MAGIC {
@@ -69,6 +81,7 @@ impl World {
         let text =
             std::str::from_utf8(rest.take(length)?).map_err(|_| reject("its scene is not text".into()))?;
         let scene = Scene::from_ron(text, file)?;
+        check(&scene)?;
         let (number, count) = (u32::from_le_bytes(rest.array()?), u32::from_le_bytes(rest.array()?));
         let shard = Shard::new(number, count).ok_or_else(|| {
             reject(format!("it is shard {number} of {count}: there is none of that number"))

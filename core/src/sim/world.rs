@@ -228,6 +228,18 @@ impl World {
         self.stores().into_iter().map(Store::size).collect()
     }
 
+    /// Bytes of the stores that grow with the numbers of a scene, known before anything is built: of leaves, their burning, particles, and
+    /// samples of these. Trees and heights of the ground, which have their own limits, come on top.
+    pub fn counted_bytes(scene: &Scene) -> u64 {
+        let rows = [
+            (scene.leaf_count() as usize, Leaves::ROW_BYTES),
+            (Burns::rows_of(scene), Burns::ROW_BYTES),
+            (scene.particle_count() as usize, ParticleStore::ROW_BYTES),
+            (HistoryStore::rows_of(scene), HistoryStore::ROW_BYTES),
+        ];
+        rows.iter().map(|&(rows, bytes)| rows as u64 * bytes as u64).sum()
+    }
+
     /// Bytes of the state, over all stores.
     pub fn state_bytes(&self) -> usize {
         state_bytes(&self.stores())

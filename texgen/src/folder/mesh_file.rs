@@ -84,8 +84,8 @@ impl LeafForm {
     /// [`FolderError`] for a file that is missing, is no form, or names corners that it does not have.
     pub fn load(folder: &Path, name: &str) -> Result<Self, FolderError> {
         let path = folder.join(file_name(name));
-        let bytes =
-            regular_file::read(&path, MAX_TEXT_BYTES).map_err(|source| FolderError::read(&path, source))?;
+        let bytes = regular_file::read_in(folder, &file_name(name), MAX_TEXT_BYTES)
+            .map_err(|source| FolderError::read(&path, source))?;
         let text = String::from_utf8_lossy(&bytes);
         let form: Self = ron::from_str(&text).map_err(|error| FolderError::Manifest {
             path: path.clone(),

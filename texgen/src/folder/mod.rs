@@ -101,8 +101,8 @@ impl Manifest {
     /// [`FolderError`] for a manifest that is missing, cannot be read, or holds what is not allowed.
     pub fn load(folder: &Path) -> Result<Self, FolderError> {
         let path = folder.join(MANIFEST_NAME);
-        let bytes =
-            regular_file::read(&path, MAX_TEXT_BYTES).map_err(|source| FolderError::read(&path, source))?;
+        let bytes = regular_file::read_in(folder, MANIFEST_NAME, MAX_TEXT_BYTES)
+            .map_err(|source| FolderError::read(&path, source))?;
         let text = std::str::from_utf8(&bytes).map_err(|error| FolderError::Manifest {
             path: path.clone(),
             line: 1,
@@ -151,7 +151,7 @@ impl FolderLeaf {
     }
 
     fn load(folder: &Path, facts: &LeafFacts, size_px: u32) -> Result<Self, FolderError> {
-        let read = |ending: &str| picture(&folder.join(format!("{}.{ending}", facts.name)), size_px);
+        let read = |ending: &str| picture(folder, &format!("{}.{ending}", facts.name), size_px);
         let maps = LeafMaps {
             albedo: read(ENDINGS[0])?.into_rgba8(),
             normal: read(ENDINGS[1])?.into_rgb8(),
@@ -165,14 +165,15 @@ impl FolderLeaf {
 }
 
 /// Reads a PNG file of a known size; the size is checked before any pixel is decoded.
-fn picture(path: &Path, size_px: u32) -> Result<DynamicImage, FolderError> {
+fn picture(folder: &Path, name: &str, size_px: u32) -> Result<DynamicImage, FolderError> {
+    let path = folder.join(name);
     let broken =
-        |error: image::ImageError| FolderError::Picture { path: path.to_owned(), problem: error.to_string() };
-    let file = regular_file::open(path).map_err(|source| FolderError::read(path, source))?;
+        |error: image::ImageError| FolderError::Picture { path: path.clone(), problem: error.to_string() };
+    let file = regular_file::open_in(folder, name).map_err(|source| FolderError::read(&path, source))?;
     let decoder = PngDecoder::new(BufReader::new(file)).map_err(broken)?;
     let found = decoder.dimensions();
     if found != (size_px, size_px) {
-        return Err(FolderError::Size { path: path.to_owned(), found, allowed: size_px });
+        return Err(FolderError::Size { path: path.clone(), found, allowed: size_px });
     }
     DynamicImage::from_decoder(decoder).map_err(broken)
 }

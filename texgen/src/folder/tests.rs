@@ -99,3 +99,21 @@ fn every_fault_is_told() {
         assert!(is_named, "{to}: {error}");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn links_that_lead_out_are_refused() {
+    let elsewhere = saved();
+    for name in [MANIFEST_NAME, "oak-2.mask.png", "oak-1.mesh.ron"] {
+        let error = after(|folder| {
+            fs::remove_file(folder.join(name)).expect("it was saved");
+            std::os::unix::fs::symlink(elsewhere.path().join(name), folder.join(name)).expect("writable");
+        });
+        let line = error.to_string();
+        assert!(line.contains(name) && line.contains("a link that leads out of its folder"), "{line}");
+    }
+    let linked = tempfile::tempdir().expect("a temporary folder");
+    let at = linked.path().join("leaves");
+    std::os::unix::fs::symlink(elsewhere.path(), &at).expect("writable");
+    assert_eq!(LeafFolder::load(&at).expect("the folder itself may be a link"), sample(), "the same leaves");
+}

@@ -31,6 +31,7 @@ use crate::run::backend::{BackendArguments, BackendKind, Device};
 use crate::run::memory::{check_memory, free_memory};
 use crate::run::parse::whole;
 use crate::run::parse::{option_error, picture_size};
+use crate::run::scene_arguments::OutsideArguments;
 use crate::run::terminal;
 
 /// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
@@ -49,6 +50,8 @@ pub struct Arguments {
     /// Preset or path of a RON file, scaled to every number of leaves.
     #[arg(value_name = "SCENE", default_value = "million")]
     scene: String,
+    #[command(flatten)]
+    outside: OutsideArguments,
     /// Numbers of leaves, separated by commas.
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1e3,1e4,1e5,1e6",
         value_parser = whole::<u32, 1, { MAX_LEAVES as u64 }>)]
@@ -81,12 +84,13 @@ pub struct Arguments {
 /// # Errors
 /// Bad input, a missing or lost device, or backends that disagree.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = load_scene(&arguments.scene)?;
+    let scene = load_scene(&arguments.scene, arguments.outside.named_files())?;
     let mut scenes = Vec::with_capacity(arguments.leaves.len());
     for &leaves in &arguments.leaves {
         let scaled = scene.with_leaf_count(&arguments.scene, leaves);
-        scenes.push(scaled.map_err(|error| option_error(error, Scene::LEAF_COUNT, "--leaves"))?);
-        check_memory(&arguments.scene, leaves)?;
+        let scaled = scaled.map_err(|error| option_error(error, Scene::LEAF_COUNT, "--leaves"))?;
+        check_memory(&arguments.scene, &scaled)?;
+        scenes.push(scaled);
     }
     if arguments.draw {
         return draw::run(&scenes, arguments);

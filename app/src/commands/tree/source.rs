@@ -12,6 +12,7 @@ use windfall_core::tree::{AttachmentKind, Skeleton, full_leaf_count, gltf, grow}
 use windfall_core::{CompiledScene, Scene};
 
 use crate::run::parse::whole;
+use crate::run::scene_arguments::OutsideArguments;
 
 /// The tree to work on.
 #[derive(Clone, Debug, Args)]
@@ -36,6 +37,8 @@ pub(super) struct TreeArguments {
     /// scene has it].
     #[arg(long, value_name = "N", value_parser = whole::<u32, 0, { limits::TREE_LEAVES.high as u64 }>)]
     leaves: Option<u32>,
+    #[command(flatten)]
+    outside: OutsideArguments,
 }
 
 /// A tree that a command works on.
@@ -76,7 +79,7 @@ impl TreeArguments {
     }
 
     fn of_scene(&self, name: &str, index: &str) -> anyhow::Result<GivenTree> {
-        let scene = Scene::load(name)?;
+        let scene = Scene::load_naming(name, self.outside.named_files())?;
         let count = scene.trees.len();
         let tree = index.parse().ok().and_then(|index: usize| scene.trees.get(index)).ok_or_else(|| {
             let allowed = match count {

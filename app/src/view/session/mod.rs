@@ -177,7 +177,7 @@ impl Session {
     /// More leaves than memory or the device hold; a device that refuses or is lost.
     pub(crate) fn simulator_of(&self, world: &World) -> anyhow::Result<Backend> {
         let scene = world.compiled.scene();
-        check_memory(&scene.name, scene.leaf_count())?;
+        check_memory(&scene.name, scene)?;
         Ok(self.device(self.kind()).simulator(world)?)
     }
 

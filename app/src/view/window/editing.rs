@@ -101,7 +101,7 @@ impl Viewer {
     /// # Errors
     /// A scene that cannot be read or used; what ran goes on then. A lost device.
     pub(super) fn open(&mut self, name: &str) -> anyhow::Result<()> {
-        let scene = Arc::new(leaves::load_scene(name)?);
+        let scene = Arc::new(leaves::load_scene(name, self.outside)?);
         let before = self.document();
         self.put_in_place(Arc::clone(&scene))?;
         self.history.record_apart(before);

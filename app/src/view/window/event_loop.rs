@@ -13,6 +13,7 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::window::{Window, WindowId};
 
+use windfall_core::scene::NamedFiles;
 use windfall_core::{Scene, World};
 
 use crate::run::backend::BackendArguments;
@@ -34,6 +35,8 @@ pub(crate) struct Options {
     pub scene: Scene,
     /// The preset's name or the file's path that it was loaded by.
     pub name: String,
+    /// Files that scenes may name.
+    pub outside: NamedFiles,
     /// The groups of the panel to begin with, all others closed; the usual ones if there are none.
     pub open: Vec<Group>,
     /// Backend that simulates.

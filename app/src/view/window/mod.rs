@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use windfall_core::scene::camera_at;
+use windfall_core::scene::{NamedFiles, camera_at};
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::{FrameInput, LensMoment, PictureTarget, Renderer};
@@ -72,6 +72,8 @@ pub(crate) struct Viewer {
     session: Session,
     /// The scene as it was loaded.
     loaded: Arc<Scene>,
+    /// Files that scenes to be opened may name.
+    outside: NamedFiles,
     history: Undo<Document>,
     /// Action that takes building anew, and the number of frames until then: a message announces it.
     building: Option<(Action, u8)>,
@@ -131,6 +133,7 @@ impl Viewer {
             gui,
             panel: Panel::new(&options.name, options.open.clone()),
             loaded: Arc::clone(session.scene()),
+            outside: options.outside,
             history: Undo::default(),
             building: None,
             session,

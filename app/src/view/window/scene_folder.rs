@@ -42,7 +42,7 @@ fn seen_from(scene: &Scene, folder: &Path) -> Scene {
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::scene::{SkyMap, TreeForm, TreeKind};
+    use windfall_core::scene::{NamedFiles, SkyMap, TreeForm, TreeKind};
 
     use super::*;
 
@@ -61,7 +61,7 @@ mod tests {
         for named in ["\"sky.hdr\"", "\"in/a.glb\"", "\"/elsewhere/leaves\""] {
             assert!(text.contains(named), "{named} in {text}");
         }
-        let again = Scene::load(&path.to_string_lossy()).expect("valid");
+        let again = Scene::load_naming(&path.to_string_lossy(), NamedFiles::Anywhere).expect("valid");
         assert_eq!(again, scene, "the same");
     }
 

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 
 use super::*;
-use crate::scene::TreeForm;
+use crate::scene::{Sky, TreeForm};
 use strategies::any_scene;
 
 proptest! {
@@ -158,7 +158,11 @@ fn named_files_are_looked_for_beside_the_scene_file() {
     ],
     view: (sky: Map((path: "skies/noon.hdr"))))"#;
     fs::write(&path, text).expect("temporary files can be written");
-    let loaded = Scene::load(path.to_str().expect("a UTF-8 path")).expect("a scene");
+    let name = path.to_str().expect("a UTF-8 path");
+    let refused = Scene::load(name).expect_err("two lie elsewhere").to_string();
+    let essentials = ["mine.ron: species[1].tables is '/b.tables', outside", "--allow-outside"];
+    assert!(essentials.iter().all(|part| refused.contains(part)), "{refused}");
+    let loaded = Scene::load_naming(name, NamedFiles::Anywhere).expect("a scene");
     fs::remove_dir_all(&at).expect("temporary files can be removed");
     let noon = at.join("skies/noon.hdr").to_str().expect("a UTF-8 path").to_owned();
     assert_eq!(loaded.view.sky, Sky::Map(crate::scene::SkyMap::new(noon)), "the map lies beside it");

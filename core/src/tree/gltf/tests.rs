@@ -179,6 +179,16 @@ fn buffers_are_found_in_the_file_and_beside_it() {
         document["buffers"][0]["uri"] = elsewhere.into();
         assert!(refusal(&document).contains("not a file beside it"), "{elsewhere}");
     }
+    #[cfg(unix)]
+    {
+        let outside = tempfile::NamedTempFile::new().expect("a temporary file");
+        std::fs::write(outside.path(), &bytes).expect("room");
+        std::os::unix::fs::symlink(outside.path(), folder.path().join("link.bin")).expect("room");
+        document["buffers"][0]["uri"] = "link.bin".into();
+        std::fs::write(&path, document.to_string()).expect("room");
+        let error = read(&path).expect_err("a link that leads out").to_string();
+        assert!(error.contains("'link.bin' is not a file beside it"), "{error}");
+    }
     document["buffers"][0]["uri"] = "data:application/octet-stream;base64,%%".into();
     assert!(refusal(&document).contains("not base64"), "{}", refusal(&document));
     document["buffers"][0].as_object_mut().expect("a buffer").remove("uri");

@@ -10,7 +10,7 @@ use gltf::Gltf;
 use gltf::buffer;
 
 use super::{GltfError, MAX_FILE_BYTES};
-use crate::read_regular_file;
+use crate::regular_file::{lies_below, read_regular_file};
 
 /// The bytes of every buffer.
 ///
@@ -65,7 +65,10 @@ fn beside(path: &Path, uri: &str) -> Result<PathBuf, String> {
     if !is_below || uri.is_empty() || uri.split('/').next().is_some_and(|first| first.contains(':')) {
         return Err(reject());
     }
-    Ok(path.parent().unwrap_or(Path::new("")).join(name))
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let there = folder.join(name);
+    // A link may lead elsewhere.
+    if lies_below(folder, &there) { Ok(there) } else { Err(reject()) }
 }
 
 /// A URI without its percent signs.
