@@ -55,7 +55,7 @@ def study(
         options += [f"--{name}", str(value)] if value is not None else []
     with scene_file(scene) as file, tempfile.TemporaryDirectory() as folder:
         kept = Path(folder, "study") if out is None else Path(out)
-        run(["study", file, *options, "--out", kept], progress)
+        run(["study", file, "--allow-outside", *options, "--out", kept], progress)
         return _read(kept, list(vary))
 
 

@@ -5,9 +5,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use windfall_core::{Scene, SimError, Simulator};
+use windfall_core::{Scene, SimError, Simulator, World};
+use windfall_wgpu::Gpu;
 
 use super::Session;
+use crate::run::backend::BackendKind;
 
 /// Time that the steps towards a target may take in one frame, in seconds: the window stays alive.
 const BUDGET_S: f64 = 0.04;
@@ -87,6 +89,33 @@ impl Session {
         self.put_back(&world)?;
         self.adopt(world.compiled);
         self.counted = None;
+        Ok(())
+    }
+
+    /// Goes on on the processor after the loss of the device; `gpu` draws from now on. What was on the lost one alone is reached again from the
+    /// last kept moment, or, if none is kept, the scene begins again.
+    ///
+    /// # Errors
+    /// Files of the scene that have changed, more leaves than memory holds.
+    pub(crate) fn recover(&mut self, gpu: Gpu) -> anyhow::Result<()> {
+        let wanted = self.heading();
+        let kept = match self.kind() {
+            BackendKind::Cpu => Some(self.world()?),
+            BackendKind::Wgpu => self.history.before(self.backend.clock().step()),
+        };
+        let is_kept = kept.is_some();
+        let world = kept.map_or_else(|| World::build(&self.scene), Ok)?;
+        self.twin = None;
+        self.gpu = gpu;
+        self.backend = self.device(BackendKind::Cpu).simulator(&world)?;
+        self.adopt(world.compiled.clone());
+        self.counted = None;
+        self.forget_cost();
+        if is_kept {
+            self.seek(wanted);
+        } else {
+            self.begin_again(&world);
+        }
         Ok(())
     }
 

@@ -143,7 +143,10 @@ impl ApplicationHandler for App {
             WindowEvent::RedrawRequested => match viewer.frame() {
                 Ok(Next::Quit) => event_loop.exit(),
                 Ok(_) => {}
-                Err(error) => self.attempt(event_loop, Err(error)),
+                Err(error) => {
+                    let recovered = viewer.recover(error);
+                    self.attempt(event_loop, recovered);
+                }
             },
             event => viewer.on_event(&event),
         }

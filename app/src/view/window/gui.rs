@@ -48,6 +48,13 @@ impl Gui {
         Self { context, state, renderer }
     }
 
+    /// Begins anew on another device; what is open, and where, stays.
+    pub(crate) fn reopen(&mut self, window: &Window, gpu: &Gpu, format: wgpu::TextureFormat) {
+        let memory = self.context.memory(Clone::clone);
+        *self = Self::new(window, gpu, format);
+        self.context.memory_mut(|fresh| *fresh = memory);
+    }
+
     /// Hands an event on; true if something has to be drawn anew.
     pub(crate) fn on_event(&mut self, window: &Window, event: &WindowEvent) -> bool {
         self.state.on_window_event(window, event).repaint

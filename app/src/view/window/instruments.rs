@@ -54,6 +54,11 @@ impl Instruments {
         }
     }
 
+    /// Asks another device from now on.
+    pub(super) fn reopen(&mut self, device: &wgpu::Device) {
+        self.probe = Probe::new(device);
+    }
+
     /// Follows nothing: there are other leaves and particles now.
     pub(super) fn let_go(&mut self) {
         self.followed = None;

@@ -9,6 +9,7 @@ pub(crate) mod event_loop;
 mod gui;
 mod instruments;
 mod recording;
+mod recovery;
 mod scene_folder;
 mod screen;
 mod screenshot;
@@ -28,8 +29,10 @@ use winit::window::Window;
 
 use self::editing::{Document, renderer_of};
 use self::instruments::Instruments;
+use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
+use crate::run::planned_loss::lose_if_planned;
 use crate::run::terminal;
 use crate::view::panel::Panel;
 use crate::view::panel::action::Action;
@@ -90,6 +93,10 @@ pub(crate) struct Viewer {
     cancel: Cancel,
     /// Path of the next clip, once it is known.
     record_to: Option<String>,
+    /// Backend that was asked for.
+    backend: BackendArguments,
+    /// Times that the device was lost.
+    losses: u32,
     next: Next,
     /// Something was changed after the panel was laid out: it does not show it yet.
     has_news: bool,
@@ -144,6 +151,8 @@ impl Viewer {
             recording: None,
             cancel: Cancel::default(),
             record_to: None,
+            backend: options.backend.clone(),
+            losses: 0,
             next: Next::Frame,
             has_news: false,
             was_idle: true,
@@ -179,6 +188,7 @@ impl Viewer {
     /// # Errors
     /// A lost device or window, a picture that cannot be saved.
     pub(crate) fn frame(&mut self) -> anyhow::Result<Next> {
+        lose_if_planned(&self.gpu, self.session.simulator().clock().step().into());
         self.gpu.check()?;
         let frame_s = if self.was_idle { 0.0 } else { self.meter.begin_frame() };
         if self.was_idle {

@@ -49,20 +49,28 @@ impl Screen {
         adapter: &wgpu::Adapter,
         gpu: &Gpu,
     ) -> anyhow::Result<Self> {
-        let size = window.inner_size();
-        let mut config = surface
-            .get_default_config(adapter, size.width.max(1), size.height.max(1))
-            .context("the graphics adapter cannot draw to this window")?;
-        // The panel blends in gamma space.
-        let formats = surface.get_capabilities(adapter).formats;
-        let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
-        if let Some(format) = plain.into_iter().find(|format| formats.contains(format)) {
-            config.format = format;
-        }
-        config.present_mode = wgpu::PresentMode::AutoVsync;
+        let config = configuration(&window, &surface, adapter)?;
         surface.configure(gpu.device(), &config);
         gpu.check()?;
         Ok(Self { window, surface, config, is_stale: false })
+    }
+
+    /// Goes on with another surface of the same window, for another device.
+    ///
+    /// # Errors
+    /// A surface that the adapter cannot draw to.
+    pub(crate) fn reopen(
+        &mut self,
+        surface: wgpu::Surface<'static>,
+        adapter: &wgpu::Adapter,
+        gpu: &Gpu,
+    ) -> anyhow::Result<()> {
+        // The former one lets go of the window before this one takes it.
+        self.surface = surface;
+        self.config = configuration(&self.window, &self.surface, adapter)?;
+        self.surface.configure(gpu.device(), &self.config);
+        self.is_stale = false;
+        Ok(gpu.check()?)
     }
 
     /// Format of its textures.
@@ -120,4 +128,24 @@ impl Screen {
         gpu.check()?;
         Ok(None)
     }
+}
+
+/// Configuration of a surface that fills its window.
+fn configuration(
+    window: &Window,
+    surface: &wgpu::Surface<'_>,
+    adapter: &wgpu::Adapter,
+) -> anyhow::Result<wgpu::SurfaceConfiguration> {
+    let size = window.inner_size();
+    let mut config = surface
+        .get_default_config(adapter, size.width.max(1), size.height.max(1))
+        .context("the graphics adapter cannot draw to this window")?;
+    // The panel blends in gamma space.
+    let formats = surface.get_capabilities(adapter).formats;
+    let plain = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
+    if let Some(format) = plain.into_iter().find(|format| formats.contains(format)) {
+        config.format = format;
+    }
+    config.present_mode = wgpu::PresentMode::AutoVsync;
+    Ok(config)
 }
