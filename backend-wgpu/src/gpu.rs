@@ -117,7 +117,8 @@ impl Gpu {
         let gpu = Self { is_own: true, ..Self::from_parts(info, device, queue) };
         let lost = Arc::clone(&gpu.health);
         gpu.device.set_device_lost_callback(move |reason, message| {
-            report(&lost, SimError::DeviceLost { reason: format!("{reason:?}: {message}") });
+            let reason = format!("{reason:?} {message}").trim().to_owned();
+            report(&lost, SimError::DeviceLost { reason });
         });
         let uncaught = Arc::clone(&gpu.health);
         gpu.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

@@ -218,7 +218,7 @@ fn say_lost(error: &anyhow::Error, contract: Contract) {
         Contract::Tolerant => "which rounds otherwise",
     };
     terminal::note(&format!(
-        "{error}; going on with a new device that draws, and simulating on the cpu, {bits}"
+        "the graphics device is lost ({error}); going on with a new one that draws, and simulating on the cpu, {bits}"
     ));
 }
 
@@ -291,7 +291,7 @@ fn film(
     let plan = shots.plan(|number| !clip.has(number - lead), shows);
     let kept = (shots.first..=shots.last).filter(|number| clip.has(number - lead)).count();
     if kept > 0 {
-        terminal::note(&format!("going on with {kept} frames of an earlier run"));
+        terminal::note(&format!("going on with {kept} frames that are kept"));
     }
     let end = plan.iter().rposition(|&shot| shot == Shot::Keep);
     let bar = progress::bar(plan.len() as u64, "frame");

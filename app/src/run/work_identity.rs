@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Identity of long work on a scene, by which a run knows what an earlier one has done of it.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use serde_json::{Value, json};
 use windfall_core::Scene;
 
 use crate::files::Identity;
+
+/// Bytes of a file that count, more than any file that a scene may name has.
+const MOST_BYTES: u64 = 1 << 30;
+/// Bytes that are in memory at a time.
+const PIECE_BYTES: usize = 1 << 20;
 
 /// Identity of what `command` makes of `scene`: the program's version, the scene, all files that it names, and `options`, an object of those
 /// that the result depends on.
@@ -46,12 +51,21 @@ fn add_up(path: &Path, sum: &mut crc32fast::Hasher) -> io::Result<()> {
     })
 }
 
-/// Adds the bytes of a regular file; pipes and devices may never end.
+/// Adds the first bytes of a regular file, piece by piece; pipes and devices may never end.
 fn add_file(path: &Path, sum: &mut crc32fast::Hasher) -> io::Result<()> {
-    if path.is_file() {
-        sum.update(&fs::read(path)?);
+    if !path.is_file() {
+        return Ok(());
     }
-    Ok(())
+    let mut file = BufReader::with_capacity(PIECE_BYTES, File::open(path)?.take(MOST_BYTES));
+    loop {
+        let piece = file.fill_buf()?;
+        if piece.is_empty() {
+            return Ok(());
+        }
+        sum.update(piece);
+        let length = piece.len();
+        file.consume(length);
+    }
 }
 
 #[cfg(test)]

@@ -19,6 +19,8 @@ use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
 use crate::run::tracks::Tracks;
 
+/// Largest file of motion tables in bytes.
+const MAX_TABLE_BYTES: u64 = 64 << 20;
 /// Identity of the study that a folder belongs to.
 const STUDY: &str = "study.json";
 /// A point's row.
@@ -174,8 +176,8 @@ fn identity(
     let tables = scene.species.iter().filter_map(|species| species.tables.as_ref());
     let tables: Vec<_> = tables
         .map(|path| {
-            let bytes =
-                read_regular_file(path.as_ref(), u64::MAX).map_err(|error| anyhow!("{path}: {error}"))?;
+            let bytes = read_regular_file(path.as_ref(), MAX_TABLE_BYTES)
+                .map_err(|error| anyhow!("{path}: {error}"))?;
             Ok(json!({ "file": path, "crc32": crc32fast::hash(&bytes) }))
         })
         .collect::<anyhow::Result<_>>()?;

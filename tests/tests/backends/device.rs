@@ -29,6 +29,31 @@ fn a_lost_device_is_an_error() {
     }
 }
 
+/// More than a device can hold is refused with what is needed and what it allows.
+#[test]
+fn more_than_the_device_holds_is_refused_with_need_and_room() {
+    let world = World::build(&varied_scene(1, 20_000, 2.0, 1.0 / 60.0)).expect("valid");
+    let instance = wgpu::Instance::new(instance_descriptor());
+    let adapter = list_adapters(&instance).remove(0);
+    let allowed = 256 << 10;
+    let required_limits = wgpu::Limits {
+        max_buffer_size: allowed,
+        max_storage_buffer_binding_size: allowed,
+        max_uniform_buffer_binding_size: 16 << 10,
+        ..adapter.limits()
+    };
+    let descriptor = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
+    let (device, queue) =
+        pollster::block_on(adapter.request_device(&descriptor)).expect("the adapter gives a device");
+    let gpu = Gpu::from_parts(adapter.get_info(), device, queue);
+    let refused =
+        WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect_err("20000 leaves of 16 bytes");
+    let SimError::Capacity { rows, needed, allowed: most, .. } = &refused else { panic!("{refused}") };
+    assert!(*rows == 20_000 && *needed >= 320_000 && *most == allowed, "{refused}");
+    let line = refused.to_string();
+    assert!(line.contains(&needed.to_string()) && line.contains(&allowed.to_string()), "{line}");
+}
+
 #[test]
 fn an_unknown_adapter_is_an_error_that_names_what_is_there() {
     let Err(SimError::NoAdapter { reason }) = Gpu::request(Some("no such adapter")) else {

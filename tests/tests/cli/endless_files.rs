@@ -13,8 +13,14 @@ use crate::common_cli::{command, file, folder};
 /// Seconds after which the program is taken to wait for ever.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Asserts that the program refuses arguments, soon and in one line that names the file.
+/// Asserts that the program refuses arguments for a device, soon and in one line that names the file.
 fn assert_refused_soon(there: &TempDir, arguments: &[&str], name: &str) {
+    let said = refused_soon(there, arguments, name);
+    assert!(said.contains("a device, not a file"), "{arguments:?}: {said}");
+}
+
+/// The one line in which the program refuses arguments, soon, with the file's name in it.
+fn refused_soon(there: &TempDir, arguments: &[&str], name: &str) -> String {
     let mut child = command(there, arguments)
         .stderr(Stdio::piped())
         .stdout(Stdio::null())
@@ -31,8 +37,9 @@ fn assert_refused_soon(there: &TempDir, arguments: &[&str], name: &str) {
     let output = child.wait_with_output().expect("it has ended");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
-    assert!(said.contains(name) && said.contains("a device, not a file"), "{arguments:?}: {said}");
+    assert!(said.contains(name), "{arguments:?}: {said}");
     assert_eq!(said.trim().lines().count(), 1, "{arguments:?}: one line: {said}");
+    said.into_owned()
 }
 
 /// A pipe that nobody writes to.
@@ -64,4 +71,30 @@ fn pipes_and_devices_that_a_scene_names_are_refused() {
     }
     file(&there, "scene.ron", "(species: [(name: \"a\", leaves: Some(\"leaves\"))])");
     assert_refused_soon(&there, &["render", "scene.ron", "--frames", "1", "--out", "a.png"], "leaves.ron");
+}
+
+/// A file of a tebibyte that takes no room on the disk.
+#[test]
+fn files_of_absurd_sizes_are_refused_before_they_are_read() {
+    let there = folder();
+    let huge = std::fs::File::create(there.path().join("huge")).expect("writable");
+    huge.set_len(1 << 40).expect("a disk with sparse files");
+    let scenes = [
+        ("(species: [(name: \"a\", tables: Some(\"huge\"))])", "huge"),
+        ("(view: (sky: Map((path: \"huge\"))))", "huge"),
+        ("(tree_kinds: [(name: \"t\", form: File(\"huge\"))], trees: [(kind: \"t\")])", "huge"),
+        ("(ground: (litter: Some(())), objects: [(shape: Mesh(file: \"huge\"))])", "huge"),
+    ];
+    for (scene, name) in scenes {
+        file(&there, "scene.ron", scene);
+        let said = refused_soon(&there, &["render", "scene.ron", "--frames", "1", "--out", "a.png"], name);
+        assert!(said.contains("bytes") || said.contains("large"), "{scene}: {said}");
+    }
+    for arguments in [
+        &["simulate", "huge"][..],
+        &["simulate", "--resume", "huge"],
+        &["leaf", "veins", "huge", "--out", "a.png"],
+    ] {
+        refused_soon(&there, arguments, "huge");
+    }
 }

@@ -19,6 +19,10 @@ mod going_on;
 mod leaf;
 mod litter;
 mod loops;
+#[cfg(unix)]
+mod machine_fails;
+#[cfg(unix)]
+mod outside;
 mod render;
 mod simulate;
 mod study;

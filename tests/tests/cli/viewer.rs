@@ -130,6 +130,25 @@ fn the_window_shows_panel_and_leaves_with_each_backend() {
 }
 
 #[test]
+fn the_window_outlives_its_device() {
+    adapter::all();
+    let display = Display::start();
+    let there = folder();
+    for backend in ["cpu", "wgpu"] {
+        let shot = format!("{backend}.png");
+        let options = ["--backend", backend, "--leaves", "2000", "--size", "800x560", "--screenshot", &shot];
+        let mut command = view_command(&display, &there, &[&options[..], &["--after", "8"]].concat());
+        command.env("WINDFALL_LOSE_DEVICE_AT", "4");
+        let outcome = finish(command);
+        assert!(outcome.stderr.contains("the graphics device is lost"), "{backend}: {outcome:?}");
+        assert_eq!(outcome.text(), "", "{backend}: it goes on");
+        let picture = image::open(there.path().join(shot)).expect("a picture").to_rgba8();
+        assert_panel(&picture);
+        assert_scene(&picture);
+    }
+}
+
+#[test]
 fn every_instrument_can_be_shown() {
     adapter::all();
     let display = Display::start();

@@ -38,7 +38,7 @@ impl Viewer {
         self.set_overlays(self.instruments.overlays);
         let step = self.session.simulator().clock().step();
         let text = format!(
-            "{error}; going on with a new device that draws, and simulating on the cpu, from step {step}"
+            "the graphics device is lost ({error}); going on with a new one that draws, and simulating on the cpu, from step {step}"
         );
         terminal::note(&text);
         self.say(text, true);
