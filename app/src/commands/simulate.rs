@@ -85,6 +85,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut kept = match written {
         Some(written) => {
             let identity = identity(arguments, &world, choice.device.contract());
+            // From here on there is something to tidy up, or to keep.
+            let _ = Cancel::on_interrupt();
             Some(KeptSimulation::open(written, &identity, arguments.restart)?)
         }
         None => None,
