@@ -15,6 +15,7 @@ use windfall_texgen::{Atlas, Layer};
 
 use super::FrameLeaf;
 use super::leaf_mesh::{LeafMesh, LeafPicture, clustered, leaf_mesh, middle};
+use super::names::plain;
 
 /// Clusters of each kind of leaf to choose from.
 const CLUSTERS: u32 = 3;
@@ -142,11 +143,6 @@ impl Foliage {
         };
         species * self.variants + variant
     }
-}
-
-/// A name as every format takes it: letters, digits and underscores.
-pub(super) fn plain(name: &str) -> String {
-    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod frame;
 mod fruit;
 mod gltf;
 mod leaf_mesh;
+mod names;
 mod plain;
 mod ply;
 mod snow_mesh;

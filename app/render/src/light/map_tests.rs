@@ -6,6 +6,9 @@ use std::f32::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use exr::prelude::{
+    Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Vec2, WritableImage,
+};
 use glam::Vec3;
 use image::codecs::hdr::HdrEncoder;
 use image::{ImageBuffer, ImageFormat, Rgb};
@@ -229,4 +232,44 @@ fn enormous_pictures_are_refused_before_they_are_decoded() {
     fs::write(&exr, &bytes).expect("it can be written");
     let error = load(&exr).expect_err("20 thousand million pixels").to_string();
     assert!(error.contains("sky.exr"), "{error}");
+}
+
+/// Found by fuzzing: the picture is small, but the window of its data claims to be enormous.
+#[test]
+fn layers_larger_than_any_picture_are_refused_before_they_are_decoded() {
+    let at = folder();
+    let path = at.path().join("sky.exr");
+    for (compression, blocks) in
+        [(Compression::PXR24, Blocks::ScanLines), (Compression::ZIP16, Blocks::Tiles(Vec2(16, 8)))]
+    {
+        let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
+        let channels = SpecificChannels::rgb(|_| (1.0_f32, 2.0_f32, 3.0_f32));
+        let layer = Layer::new((16, 8), LayerAttributes::default(), encoding, channels);
+        Image::from_layer(layer).write().to_file(&path).expect("a picture can be written");
+        load(&path).expect("a good file");
+        let mut bytes = fs::read(&path).expect("it was written");
+        let (name, size) = match blocks {
+            Blocks::ScanLines => (&b"dataWindow\0box2i\0"[..], 12),
+            Blocks::Tiles(_) => (&b"tiles\0tiledesc\0"[..], 4),
+        };
+        let found = bytes.windows(name.len()).position(|window| window == name).expect("an attribute");
+        let width = found + name.len() + size;
+        bytes[width..][..4].copy_from_slice(&0x4000_0000_u32.to_le_bytes());
+        fs::write(&path, &bytes).expect("it can be written");
+        let error = load(&path).expect_err("a row of a thousand million pixels").to_string();
+        assert!(error.contains("sky.exr") && error.contains("bytes; allowed: at most"), "{error}");
+    }
+}
+
+/// Found by fuzzing.
+#[test]
+fn the_sun_of_a_faint_picture_has_a_direction_of_unit_length() {
+    for brightest in [1e-16, 1e-18, 1e-19, 1e-20] {
+        let towards = Vec3::new(1.0, 2.0, 0.5).normalize();
+        let radiance = |direction: Vec3| if direction.dot(towards) > 0.999 { brightest } else { 1e-4 * brightest };
+        let map = EnvironmentMap::from_fn(128, 64, |direction| Vec3::splat(radiance(direction)));
+        let (sun, _) = take_sun(&map);
+        assert!(sun.direction.is_normalized(), "{} at {brightest}", sun.direction);
+        assert!(sun.direction.dot(towards) > 0.99, "{} at {brightest}", sun.direction);
+    }
 }

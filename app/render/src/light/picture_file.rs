@@ -5,6 +5,7 @@
 use std::fs;
 use std::io::Cursor;
 
+use exr::meta::{BlockDescription, MetaData};
 use glam::Vec3;
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::openexr::OpenExrDecoder;
@@ -40,6 +41,7 @@ impl Picture {
         if bytes.starts_with(b"#?") {
             Self::decode(path, HdrDecoder::new_nonstrict(Cursor::new(&bytes)))
         } else if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+            check_layers(path, &bytes)?;
             Self::decode(path, OpenExrDecoder::with_alpha_preference(Cursor::new(&bytes), Some(false)))
         } else {
             Err(MapError::Kind { file: path.into() })
@@ -77,6 +79,29 @@ fn read_file(path: &str) -> Result<Vec<u8>, MapError> {
         return Err(MapError::Bytes { file: path.into(), length, allowed: MAX_BYTES });
     }
     read_regular_file(path.as_ref(), MAX_BYTES).map_err(|source| MapError::Read { file: path.into(), source })
+}
+
+/// Refuses an OpenEXR file with a layer that is larger than any allowed picture, of which the picture may show a corner alone: blocks
+/// are decoded whole.
+fn check_layers(path: &str, bytes: &[u8]) -> Result<(), MapError> {
+    // The decoder says what is wrong with a head that cannot be read.
+    let Ok(head) = MetaData::read_from_buffered(bytes, false) else { return Ok(()) };
+    for header in &head.headers {
+        let tile = match header.blocks {
+            BlockDescription::ScanLines => header.layer_size,
+            BlockDescription::Tiles(tiles) => tiles.tile_size,
+        };
+        for size in [header.layer_size, tile] {
+            // Sides are below 2^31, and the bytes of a pixel come from a list in the file.
+            let pixels = size.width() as u128 * size.height() as u128;
+            let length = pixels * header.channels.bytes_per_pixel as u128;
+            if length > MAX_BYTES.into() {
+                let length = u64::try_from(length).unwrap_or(u64::MAX);
+                return Err(MapError::Bytes { file: path.into(), length, allowed: MAX_BYTES });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Allows what the shapes of maps are.

@@ -36,7 +36,8 @@ pub(super) fn take_sun(map: &EnvironmentMap) -> (SunLight, EnvironmentMap) {
             middle += direction * luminance(excess);
         }
     }
-    let direction = middle.normalize_or(peak);
+    // In double precision: the square of a faint sum would be no number of single precision.
+    let direction = middle.as_dvec3().normalize_or(peak.as_dvec3()).as_vec3();
     let all = luminance(map.irradiance(direction));
     if direction.y < 0.02 || luminance(illuminance) < DOMINANT * all {
         return (black(peak), map.clone());

@@ -7,12 +7,13 @@ use std::io::{self, Write};
 use glam::Vec3;
 use windfall_core::Scene;
 
-use super::particles::{EMPTY, prim_names};
+use super::particles::EMPTY;
 use super::prototypes::NORMAL_PLACES;
 use super::samples::{Handle, Samples};
 use super::text;
 use crate::export::Frame;
 use crate::export::blob_mesh::{BlobMesh, blob_mesh, is_blobs};
+use crate::export::names::prim_names;
 
 /// Decimal places of corners in metres, of velocities and colours.
 const PLACES: i32 = 5;

@@ -9,10 +9,11 @@ use windfall_core::particle::{HistoryRun, history_runs, way_of};
 use windfall_core::scene::{Look, Particles};
 use windfall_core::{Scene, World};
 
-use super::particles::{EMPTY, prim_names};
+use super::particles::EMPTY;
 use super::samples::{Handle, Samples};
 use super::text;
 use crate::export::Frame;
+use crate::export::names::prim_names;
 use crate::run::live_particle::LiveParticle;
 
 /// The attributes of the curves of all populations.

@@ -12,7 +12,7 @@ use super::samples::{Handle, Samples};
 use super::text;
 use crate::export::Frame;
 use crate::export::blob_mesh::is_blobs;
-use crate::export::foliage::plain;
+use crate::export::names::prim_names;
 use crate::run::live_particle::LiveParticle;
 
 /// Extent of no points: turned inside out, so that it adds nothing to a box. `UsdGeomPoints::ComputeExtent` has the largest numbers there
@@ -105,36 +105,4 @@ pub(super) fn write_populations(out: &mut impl Write, scene: &Scene) -> io::Resu
         )?;
     }
     writeln!(out, "}}")
-}
-
-/// Names of the prims: those of the populations as the format takes them, with their number where that leaves two alike.
-pub(super) fn prim_names(scene: &Scene) -> Vec<String> {
-    let mut names: Vec<String> = Vec::with_capacity(scene.particles.len());
-    for (number, population) in scene.particles.iter().enumerate() {
-        let mut name = plain(&population.name);
-        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            name.insert(0, '_');
-        }
-        while names.contains(&name) {
-            name += &format!("_{number}");
-        }
-        names.push(name);
-    }
-    names
-}
-
-#[cfg(test)]
-mod tests {
-    use windfall_core::scene::Particles;
-
-    use super::*;
-
-    #[test]
-    fn every_population_has_a_name_of_its_own() {
-        let named = |name: &str| Particles { name: name.into(), ..Particles::default() };
-        let names = ["hot sparks", "hot_sparks", "3", "", "hot+sparks", "hot_sparks_4"];
-        let scene = Scene { particles: names.map(named).into(), ..Scene::default() };
-        let expected = ["hot_sparks", "hot_sparks_1", "_3", "_", "hot_sparks_4", "hot_sparks_4_5"];
-        assert_eq!(prim_names(&scene), expected, "prims");
-    }
 }
