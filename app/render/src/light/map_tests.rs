@@ -7,7 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{
-    Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Vec2, WritableImage,
+    Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Vec2,
+    WritableImage,
 };
 use glam::Vec3;
 use image::codecs::hdr::HdrEncoder;
@@ -266,7 +267,8 @@ fn layers_larger_than_any_picture_are_refused_before_they_are_decoded() {
 fn the_sun_of_a_faint_picture_has_a_direction_of_unit_length() {
     for brightest in [1e-16, 1e-18, 1e-19, 1e-20] {
         let towards = Vec3::new(1.0, 2.0, 0.5).normalize();
-        let radiance = |direction: Vec3| if direction.dot(towards) > 0.999 { brightest } else { 1e-4 * brightest };
+        let radiance =
+            |direction: Vec3| if direction.dot(towards) > 0.999 { brightest } else { 1e-4 * brightest };
         let map = EnvironmentMap::from_fn(128, 64, |direction| Vec3::splat(radiance(direction)));
         let (sun, _) = take_sun(&map);
         assert!(sun.direction.is_normalized(), "{} at {brightest}", sun.direction);
