@@ -272,6 +272,20 @@ impl CompiledScene {
         &self.shard_rows
     }
 
+    /// Bytes of all stores of a world of this scene.
+    pub(crate) fn state_bytes(&self) -> u64 {
+        let row_bytes = [
+            Leaves::ROW_BYTES,
+            Branches::ROW_BYTES,
+            Bed::ROW_BYTES,
+            ParticleStore::ROW_BYTES,
+            TallyStore::ROW_BYTES,
+            HistoryStore::ROW_BYTES,
+            Burns::ROW_BYTES,
+        ];
+        self.sizes().iter().zip(row_bytes).map(|(size, bytes)| size.rows as u64 * bytes as u64).sum()
+    }
+
     /// Checks that a simulator with stores of these sizes can go on with this scene.
     ///
     /// # Errors

@@ -93,6 +93,12 @@ impl World {
         for born in &mut born[..scene.particles.len()] {
             *born = u64::from_le_bytes(rest.array()?);
         }
+        // Before the stores get their memory: a few bytes may hold a scene of millions of leaves.
+        let (needed, found) = (compiled.state_bytes(), rest.bytes.len());
+        if needed > found as u64 {
+            let reason = format!("it is cut short: {found} bytes of state for a scene of {needed}");
+            return Err(reject(reason));
+        }
         let clock = Clock::at(step, scene.dt_s, travel).with_born(born);
         let mut world = Self::zeroed(compiled, clock);
         rest.bytes = read_stores(rest.bytes, file, &mut world.stores_mut())?;
