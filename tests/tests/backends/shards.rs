@@ -107,7 +107,7 @@ fn trees_are_divided_whole() {
 
 #[test]
 fn shards_on_a_device_are_the_whole() {
-    for scene in [gale(), Scene::preset("whirl").expect("a preset")] {
+    for scene in [gale(), Scene::preset("pollen").expect("a preset")] {
         let scene = scaled(&scene, 1_500);
         let whole = on_cpu(&World::build(&scene).expect("valid"), CpuOptions::default(), 24);
         for gpu in exact_adapters() {

@@ -11,6 +11,15 @@ use super::{FolderError, MAX_TEXT_BYTES};
 use crate::form::{Detail, Drying, LeafMesh};
 use crate::{Blade, TexgenError, VeinGraph, regular_file};
 
+/// Most levels of detail.
+const MOST_LEVELS: usize = 8;
+/// Most corners of a level, which renderers number with 16 bits, and most triangles.
+const MOST_CORNERS: usize = 1 << 16;
+/// Most shapes of a level.
+const MOST_SHAPES: usize = 16;
+/// Farthest place in sides of the picture.
+const FARTHEST: f32 = 100.0;
+
 /// Meshes of one leaf, coarse first. All lengths are shares of the picture's side, x to the right and y down from its
 /// upper left corner, z towards the viewer of the upper side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,7 +90,7 @@ impl LeafForm {
     /// Reads the meshes of the leaf `name`.
     ///
     /// # Errors
-    /// [`FolderError`] for a file that is missing, is no form, or names corners that it does not have.
+    /// [`FolderError`] for a file that is missing, is no form, names corners that it does not have, or has too many of anything.
     pub fn load(folder: &Path, name: &str) -> Result<Self, FolderError> {
         let path = folder.join(file_name(name));
         let bytes = regular_file::read_in(folder, &file_name(name), MAX_TEXT_BYTES)
@@ -93,22 +102,47 @@ impl LeafForm {
             column: error.span.start.col,
             problem: error.code.to_string(),
         })?;
-        for (index, level) in form.levels.iter().enumerate() {
-            let refuse = |field: &str, value: usize, allowed| {
-                let field = format!("levels[{index}].{field}");
-                Err(FolderError::Field { path: path.clone(), field, value: value.to_string(), allowed })
-            };
+        form.check(&path)?;
+        Ok(form)
+    }
+
+    /// Checks every list and every number; `path` names the file in errors.
+    fn check(&self, path: &Path) -> Result<(), FolderError> {
+        let refuse = |field: String, value: String, allowed| {
+            Err(FolderError::Field { path: path.to_owned(), field, value, allowed })
+        };
+        if self.levels.len() > MOST_LEVELS {
+            return refuse("levels.len()".into(), self.levels.len().to_string(), "at most 8");
+        }
+        for (index, level) in self.levels.iter().enumerate() {
+            let field = |name: &str| format!("levels[{index}].{name}");
             let count = level.positions.len();
-            if let Some(corner) =
-                level.triangles.as_flattened().iter().find(|corner| **corner as usize >= count)
-            {
-                return refuse("triangles", *corner as usize, "a corner that is there");
+            for (name, found, most, allowed) in [
+                ("positions", count, MOST_CORNERS, "at most 65536"),
+                ("triangles", level.triangles.len(), MOST_CORNERS, "at most 65536"),
+                ("shapes", level.shapes.len(), MOST_SHAPES, "at most 16"),
+            ] {
+                if found > most {
+                    return refuse(field(&format!("{name}.len()")), found.to_string(), allowed);
+                }
+            }
+            let mut corners = level.triangles.as_flattened().iter();
+            if let Some(corner) = corners.find(|corner| **corner as usize >= count) {
+                return refuse(field("triangles"), corner.to_string(), "a corner that is there");
             }
             if let Some(shape) = level.shapes.iter().find(|shape| shape.offsets.len() != count) {
-                return refuse("shapes", shape.offsets.len(), "an offset for each corner");
+                return refuse(field("shapes"), shape.offsets.len().to_string(), "an offset for each corner");
+            }
+            let places = level.positions.as_flattened().iter();
+            let shapes = || level.shapes.iter();
+            let offsets = shapes().flat_map(|shape| shape.offsets.as_flattened());
+            let water = shapes().map(|shape| &shape.water);
+            let is_far = |number: &&f32| !(-FARTHEST..=FARTHEST).contains(*number);
+            if let Some(number) = places.chain(offsets).chain(water).find(is_far) {
+                return refuse(field("positions and shapes"), number.to_string(), "numbers from -100 to 100");
             }
         }
-        Ok(form)
+        Ok(())
     }
 }
 

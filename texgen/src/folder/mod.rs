@@ -27,6 +27,8 @@ pub use mesh_file::{FormLevel, FormShape, LeafForm};
 
 /// Largest file of text in bytes: a manifest or meshes of a leaf.
 const MAX_TEXT_BYTES: u64 = 64 << 20;
+/// Most bytes that decoding takes beside the pixels, such as those of a colour profile: more than the largest picture has.
+const DECODER_BYTES: u64 = 160 << 20;
 /// Endings of a leaf's five pictures.
 const ENDINGS: [&str; 5] = ["png", "normal.png", "height.png", "translucency.png", "mask.png"];
 
@@ -170,7 +172,9 @@ fn picture(folder: &Path, name: &str, size_px: u32) -> Result<DynamicImage, Fold
     let broken =
         |error: image::ImageError| FolderError::Picture { path: path.clone(), problem: error.to_string() };
     let file = regular_file::open_in(folder, name).map_err(|source| FolderError::read(&path, source))?;
-    let decoder = PngDecoder::new(BufReader::new(file)).map_err(broken)?;
+    let mut limits = image::Limits::no_limits();
+    limits.max_alloc = Some(DECODER_BYTES);
+    let decoder = PngDecoder::with_limits(BufReader::new(file), limits).map_err(broken)?;
     let found = decoder.dimensions();
     if found != (size_px, size_px) {
         return Err(FolderError::Size { path: path.clone(), found, allowed: size_px });

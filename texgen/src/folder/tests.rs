@@ -117,3 +117,55 @@ fn links_that_lead_out_are_refused() {
     std::os::unix::fs::symlink(elsewhere.path(), &at).expect("writable");
     assert_eq!(LeafFolder::load(&at).expect("the folder itself may be a link"), sample(), "the same leaves");
 }
+
+/// A colour profile of zeros takes a thousandth of its length in the file.
+#[test]
+fn a_picture_with_an_enormous_profile_takes_little_memory() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut file = Vec::new();
+    let mut encoder = PngEncoder::new(&mut file);
+    encoder.set_icc_profile(vec![0; 512 << 20]).expect("a file may have a profile");
+    encoder.write_image(&[7; 256], 16, 16, ExtendedColorType::L8).expect("memory takes everything");
+    assert!(file.len() < 4 << 20, "small on the disk: {} bytes", file.len());
+    fs::write(folder.path().join("leaf.png"), &file).expect("writable");
+    let info = allocation_counter::measure(|| {
+        picture(folder.path(), "leaf.png", 16).expect("the picture itself is good");
+    });
+    assert!(info.bytes_max < 2 * DECODER_BYTES, "{} bytes at once", info.bytes_max);
+}
+
+#[test]
+fn meshes_larger_or_farther_than_any_leaf_are_refused() {
+    let refused = |change: &dyn Fn(&mut LeafForm), part: &str, allowed: &str| {
+        let error = after(|at| {
+            let mut form = LeafForm::load(at, "oak-1").expect("it was saved");
+            change(&mut form);
+            form.save(at, "oak-1").expect("writable");
+        });
+        let error = error.to_string();
+        assert!(error.contains(part) && error.ends_with(allowed), "{error}");
+    };
+    refused(&|form| form.levels = vec![form.levels[0].clone(); 9], "levels.len() is 9", "at most 8");
+    refused(
+        &|form| form.levels[0].triangles = vec![[0, 1, 2]; 65_537],
+        "levels[0].triangles.len() is 65537",
+        "at most 65536",
+    );
+    refused(
+        &|form| {
+            form.levels[0].positions = vec![[0.0; 2]; 65_537];
+            form.levels[0].shapes.clear();
+        },
+        "levels[0].positions.len() is 65537",
+        "at most 65536",
+    );
+    refused(
+        &|form| form.levels[0].shapes = vec![form.levels[0].shapes[0].clone(); 17],
+        "levels[0].shapes.len() is 17",
+        "at most 16",
+    );
+    let far = "numbers from -100 to 100";
+    refused(&|form| form.levels[0].positions[1][0] = f32::NAN, "is NaN", far);
+    refused(&|form| form.levels[0].shapes[0].offsets[2][2] = f32::NEG_INFINITY, "is -inf", far);
+    refused(&|form| form.levels[0].shapes[0].water = 101.0, "is 101", far);
+}
