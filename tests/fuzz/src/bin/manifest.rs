@@ -33,10 +33,13 @@ static FOLDERS: LazyLock<[Folder; 2]> = LazyLock::new(|| {
 
 /// A picture with something in it.
 fn picture(colour: ColorType) -> Vec<u8> {
-    let bytes: Vec<u8> =
-        (0u8..=255).cycle().take((SIZE_PX * SIZE_PX) as usize * usize::from(colour.bytes_per_pixel())).collect();
+    let bytes: Vec<u8> = (0u8..=255)
+        .cycle()
+        .take((SIZE_PX * SIZE_PX) as usize * usize::from(colour.bytes_per_pixel()))
+        .collect();
     let mut out = Vec::new();
-    let written = PngEncoder::new(&mut out).write_image(&bytes, SIZE_PX, SIZE_PX, ExtendedColorType::from(colour));
+    let written =
+        PngEncoder::new(&mut out).write_image(&bytes, SIZE_PX, SIZE_PX, ExtendedColorType::from(colour));
     written.expect("memory takes everything");
     out
 }
@@ -64,7 +67,8 @@ fuzz_target!(|data: &[u8]| {
 
 fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
     let size = pieces::mutate(data, size, max_size, seed);
-    let picture = data[..size].splitn(3, |byte| *byte == 0).nth(2).map_or(size, |picture| size - picture.len());
+    let picture =
+        data[..size].splitn(3, |byte| *byte == 0).nth(2).map_or(size, |picture| size - picture.len());
     checksum::set_png(&mut data[picture..size]);
     size
 });

@@ -39,7 +39,8 @@ fuzz_target!(|data: &[u8]| {
     match MotionTables::from_text(&written_out(text), "tables") {
         Ok(tables) => {
             let written = tables.to_text();
-            let again = MotionTables::from_text(&written, "the tables again").expect("what is written can be read");
+            let again =
+                MotionTables::from_text(&written, "the tables again").expect("what is written can be read");
             assert_eq!(again, tables, "the same tables");
         }
         Err(error) => assert!(!error.to_string().is_empty(), "an error says something"),

@@ -11,8 +11,8 @@ use image::{GrayImage, ImageFormat, RgbImage};
 use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
 use windfall_fuzz::checksum;
 use windfall_fuzz::folder::Folder;
-use windfall_texgen::form::{Detail, LeafMesh};
 use windfall_texgen::Photo;
+use windfall_texgen::form::{Detail, LeafMesh};
 
 /// Widest and highest picture of plain pixels.
 const MOST_PX: usize = 64;

@@ -9,7 +9,10 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use exr::prelude::{Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Vec2, WritableImage};
+use exr::prelude::{
+    Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, SpecificChannels, Vec2,
+    WritableImage,
+};
 use image::codecs::hdr::HdrEncoder;
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use windfall_core::motion::MotionTables;
@@ -19,7 +22,9 @@ use windfall_core::tree::gltf::{GltfLook, to_glb, to_gltf};
 use windfall_core::tree::{BarkDetail, bark_mesh, grow};
 use windfall_core::{Scene, World};
 use windfall_fuzz::budget;
-use windfall_texgen::{BodyFacts, FOLDER_VERSION, FormLevel, FormShape, LeafFacts, LeafForm, MANIFEST_NAME, Manifest};
+use windfall_texgen::{
+    BodyFacts, FOLDER_VERSION, FormLevel, FormShape, LeafFacts, LeafForm, MANIFEST_NAME, Manifest,
+};
 
 /// Longest input that is written, in bytes: fuzzers go through small ones faster.
 const LONGEST: usize = 64 << 10;
@@ -41,7 +46,8 @@ impl Seeds {
     fn add(&mut self, bytes: impl AsRef<[u8]>) {
         let bytes = bytes.as_ref();
         if bytes.len() <= LONGEST {
-            fs::write(self.folder.join(format!("seed-{:03}", self.count)), bytes).expect("a seed can be written");
+            fs::write(self.folder.join(format!("seed-{:03}", self.count)), bytes)
+                .expect("a seed can be written");
             self.count += 1;
         }
     }
@@ -78,7 +84,9 @@ fn guide_scenes(root: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for page in fs::read_dir(root.join("docs/guide")).expect("the guide") {
         let text = fs::read_to_string(page.expect("a page").path()).unwrap_or_default();
-        found.extend(text.split("```ron\n").skip(1).filter_map(|rest| rest.split("```").next()).map(str::to_owned));
+        found.extend(
+            text.split("```ron\n").skip(1).filter_map(|rest| rest.split("```").next()).map(str::to_owned),
+        );
     }
     found
 }
@@ -135,7 +143,9 @@ fn small_worlds(all: &Path, texts: &[String]) {
 
 fn trees(all: &Path, root: &Path) {
     let mut grammars = Seeds::new(all, "grammar");
-    let mut words = String::from("abs ceil clamp cos exp floor if ln max min mix pow round sin sqrt chance rand distichous opposite ");
+    let mut words = String::from(
+        "abs ceil clamp cos exp floor if ln max min mix pow round sin sqrt chance rand distichous opposite ",
+    );
     for file in fs::read_dir(root.join("core/trees")).expect("grammars of the presets") {
         let text = fs::read_to_string(file.expect("a grammar").path()).unwrap_or_default();
         grammars.add(&text);
@@ -190,11 +200,13 @@ fn tables(all: &Path, root: &Path) {
 }
 
 fn skies(all: &Path) {
-    let value = |x: usize, y: usize| [1.0 + x as f32 / 8.0, 2.0, if (x, y) == (3, 1) { 5e4 } else { 0.5 + y as f32 }];
+    let value =
+        |x: usize, y: usize| [1.0 + x as f32 / 8.0, 2.0, if (x, y) == (3, 1) { 5e4 } else { 0.5 + y as f32 }];
     let mut hdr = Seeds::new(all, "hdr");
     let sizes = [(16, 8), (32, 16), (6, 8), (12, 9)];
     for (width, height) in sizes {
-        let pixels: Vec<Rgb<f32>> = (0..width * height).map(|at| Rgb(value(at % width, at / width))).collect();
+        let pixels: Vec<Rgb<f32>> =
+            (0..width * height).map(|at| Rgb(value(at % width, at / width))).collect();
         let mut bytes = Vec::new();
         HdrEncoder::new(&mut bytes).encode(&pixels, width, height).expect("memory takes everything");
         hdr.add(bytes);
@@ -219,7 +231,11 @@ fn skies(all: &Path) {
             let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
             let layer = Layer::new((width, height), LayerAttributes::named("sky"), encoding, channels);
             let mut bytes = Cursor::new(Vec::new());
-            Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes).expect("memory takes everything");
+            Image::from_layer(layer)
+                .write()
+                .non_parallel()
+                .to_buffered(&mut bytes)
+                .expect("memory takes everything");
             exr.add(bytes.into_inner());
         }
     }
@@ -241,7 +257,9 @@ fn leaves(all: &Path) {
     };
     let manifest = |leaves: Vec<LeafFacts>| {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        Manifest { version: FOLDER_VERSION, size_px: 16, leaves }.save(folder.path()).expect("it can be written");
+        Manifest { version: FOLDER_VERSION, size_px: 16, leaves }
+            .save(folder.path())
+            .expect("it can be written");
         fs::read_to_string(folder.path().join(MANIFEST_NAME)).expect("it was written")
     };
     let level = FormLevel {
@@ -280,7 +298,8 @@ fn leaf_picture(width: u32, height: u32) -> RgbImage {
 fn photos(all: &Path) {
     let mut seeds = Seeds::new(all, "photo");
     let photo = leaf_picture(48, 64);
-    let mask = GrayImage::from_fn(48, 64, |x, y| Luma([if photo.get_pixel(x, y)[0] < 200 { 255 } else { 0 }]));
+    let mask =
+        GrayImage::from_fn(48, 64, |x, y| Luma([if photo.get_pixel(x, y)[0] < 200 { 255 } else { 0 }]));
     let encoded = |picture: &DynamicImage, format| {
         let mut bytes = Cursor::new(Vec::new());
         picture.write_to(&mut bytes, format).expect("memory takes everything");
@@ -301,7 +320,8 @@ fn photos(all: &Path) {
     let length = u16::try_from(file.len()).expect("a small file").to_le_bytes();
     seeds.add([&[1], &length[..], &file, &encoded(&mask.clone().into(), ImageFormat::Png)].concat());
     // Plain pixels, odd where the leaf is.
-    let pixels = photo.pixels().zip(mask.pixels()).map(|(colour, inside)| (colour[0] & 0xfe) | (inside[0] & 1));
+    let pixels =
+        photo.pixels().zip(mask.pixels()).map(|(colour, inside)| (colour[0] & 0xfe) | (inside[0] & 1));
     seeds.add([2, 47].into_iter().chain(pixels).collect::<Vec<u8>>());
     seeds.words(&["IHDR PLTE IDAT IEND tRNS gAMA sRGB iCCP acTL fcTL fdAT JFIF Exif GIF87a GIF89a"]);
 }

@@ -24,7 +24,11 @@ fuzz_target!(|data: &[u8]| {
     let particles = lines.iter().take(MAX_POPULATIONS).map(named).collect();
     let scene = Scene { particles, ..Scene::default() };
     let prims = names::prim_names(&scene);
-    assert_eq!(prims.iter().collect::<HashSet<_>>().len(), scene.particles.len(), "prims of their own: {prims:?}");
+    assert_eq!(
+        prims.iter().collect::<HashSet<_>>().len(),
+        scene.particles.len(),
+        "prims of their own: {prims:?}"
+    );
     for prim in &prims {
         assert!(is_prim_name(prim), "{prim:?} is a name");
     }
