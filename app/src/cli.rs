@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    bench, drift, export, flight, info, leaf, litter, motions, render, simulate, study, tree, view,
+    bench, drift, export, flight, info, leaf, litter, merge, motions, render, simulate, study, tree, view,
 };
 use crate::run::terminal;
 
@@ -35,6 +35,8 @@ pub enum Command {
     Simulate(simulate::Arguments),
     /// Write a stretch of a scene for other programs: USD, glTF, a table or point clouds.
     Export(export::Arguments),
+    /// Put together what shards of a scene have written.
+    Merge(merge::Arguments),
     /// List graphics adapters with their limits, and what is chosen by default.
     Info,
     /// Measure how fast this machine simulates.
@@ -64,6 +66,7 @@ impl Command {
             Self::Render(arguments) => render::run(&arguments),
             Self::Simulate(arguments) => simulate::run(&arguments),
             Self::Export(arguments) => export::run(&arguments),
+            Self::Merge(arguments) => merge::run(&arguments),
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Flight(arguments) => flight::run(&arguments),

@@ -73,6 +73,7 @@ mod commands;
 mod export;
 mod files;
 mod leaves;
+mod merge;
 mod output;
 mod plot;
 mod run;

@@ -21,6 +21,7 @@ use crate::run::parse::frame_rate;
 use crate::run::parse::loop_length;
 use crate::run::progress;
 use crate::run::scene_arguments::SceneArguments;
+use crate::run::sharding::ShardArguments;
 use crate::run::stepping::Stepping;
 use crate::run::terminal;
 use crate::run::work_identity::work_identity;
@@ -40,7 +41,7 @@ pub struct Arguments {
     frames: Option<FrameRange>,
     /// Write one round of a scene that repeats without a seam after this many simulated seconds, 1 to 120, and with trees at least 6:
     /// the last frame is the first again. What `windfall render --loop` says of such scenes holds here.
-    #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
+    #[arg(long = "loop", value_name = "SECONDS", conflicts_with_all = ["frames", "shard"], value_parser = loop_length)]
     looped: Option<f64>,
     /// Format to write [default: by the ending of --out].
     #[arg(long, value_name = "FORMAT")]
@@ -52,6 +53,8 @@ pub struct Arguments {
     /// Frames per second.
     #[arg(long, value_name = "FPS", default_value = "60", value_parser = frame_rate)]
     fps: f64,
+    #[command(flatten)]
+    shard: ShardArguments,
     /// Begin anew where an unfinished export of other options or of another scene lies beside the output. Without this an unfinished export of
     /// the same ones is gone on with: as USD behind the layers that are finished, as CSV and PLY behind the frames; glTF begins anew in any case.
     #[arg(long)]
@@ -65,11 +68,15 @@ pub struct Arguments {
 /// file at the output has changed; what is finished is kept beside it.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments.format, &arguments.out)?;
-    let scene = arguments.scene.load()?;
-    let path = arguments.out.as_path();
+    let shard = arguments.shard.part();
+    if !shard.is_whole() && !matches!(format, Format::Usd | Format::Csv) {
+        bail!("--shard with --format {format:?}; allowed: usd and csv, which can be put together");
+    }
+    let scene = arguments.scene.load_for(shard)?;
+    let path = &*arguments.shard.path(&arguments.out);
     let cancel = Cancel::on_interrupt();
     let fit = |frames: FrameRange| {
-        let content = Content::of(&scene);
+        let content = Content::of(&scene, shard);
         check_space(Estimate::new(format, frames, content, path), frames, content, path)
     };
     let (mut world, frames, steps, note) = match arguments.looped {
@@ -81,7 +88,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 bail!("--frames and --fps ask for {last} steps; allowed: at most {MAX_STEPS}");
             }
             let note = fit(frames)?;
-            (World::build_named(&scene, arguments.scene.name())?, frames, Steps::Clip(steps), note)
+            (World::build_shard(&scene, arguments.scene.name(), shard)?, frames, Steps::Clip(steps), note)
         }
         Some(seconds) => {
             let (world, cycle) = build_cycle(&scene, arguments.scene.name(), seconds)?;
@@ -91,7 +98,11 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             (world, frames, Steps::Round(round), note)
         }
     };
-    let scene = world.compiled.scene().clone();
+    let mut scene = world.compiled.scene().clone();
+    if !shard.is_first() {
+        // They are all in the first shard.
+        scene.particles.clear();
+    }
     let choice = arguments.backend.choose()?;
     let mut backend = Lasting::new(&choice.device, &world)?;
     let identity = work_identity(
@@ -102,6 +113,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             "fps": arguments.fps,
             "loop": arguments.looped,
             "frames": [frames.first, frames.last],
+            "shard": shard.to_string(),
             "contract": backend.info().contract.to_string(),
         }),
     );
@@ -112,6 +124,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         scene: &scene,
         solids,
         scene_trees: &scene_trees,
+        shard,
+        shard_rows: world.compiled.shard_rows(),
         path,
         frames,
         fps: arguments.fps,

@@ -9,6 +9,7 @@ pub(crate) mod flight;
 pub(crate) mod info;
 pub(crate) mod leaf;
 pub(crate) mod litter;
+pub(crate) mod merge;
 pub(crate) mod motions;
 pub(crate) mod render;
 pub(crate) mod simulate;

@@ -3,15 +3,18 @@
 //! `windfall simulate`: numbers without pictures.
 
 use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use clap::Args;
 use indicatif::ProgressBar;
+use serde_json::json;
 use windfall_core::scene::NamedFiles;
-use windfall_core::{Contract, Scene, Simulator, World};
+use windfall_core::{Contract, Scene, Shard, Simulator, World};
 
 use crate::files::{Identity, OutputFile, WriteError};
+use crate::merge::reports::RUN;
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::kept_simulation::{KeptSimulation, write_checkpoint};
@@ -21,6 +24,7 @@ use crate::run::parse::whole;
 use crate::run::progress;
 use crate::run::report::Report;
 use crate::run::scene_arguments::SceneArguments;
+use crate::run::sharding::ShardArguments;
 use crate::run::stepping::Stepping;
 use crate::run::swaying::{Swaying, TreeReport};
 use crate::run::terminal;
@@ -48,8 +52,13 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Go on from the state in this file, with the scene that it holds.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "leaves", "seed"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "leaves", "seed", "shard"])]
     resume: Option<PathBuf>,
+    #[command(flatten)]
+    shard: ShardArguments,
+    /// Write what --json prints to this file as well, with all that the outcome depends on.
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
     /// Begin anew where an unfinished run of other options or of another scene lies beside the checkpoint or the tracks. Without this an
     /// unfinished run of the same ones, whose state is kept every few seconds, is gone on with.
     #[arg(long)]
@@ -63,11 +72,13 @@ pub struct Arguments {
 /// done is kept beside it.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = match &arguments.resume {
-        None => Some(arguments.scene.load()?),
+        None => Some(arguments.scene.load_for(arguments.shard.part())?),
         Some(_) => None,
     };
-    let checkpoint = arguments.checkpoint.as_deref().map(OutputFile::create).transpose()?;
-    let tracks_at = arguments.tracks.destination()?;
+    let create = |path: &PathBuf| OutputFile::create(&arguments.shard.path(path));
+    let checkpoint = arguments.checkpoint.as_ref().map(create).transpose()?;
+    let report_file = arguments.report.as_ref().map(create).transpose()?;
+    let tracks_at = arguments.tracks.destination(&arguments.shard)?;
     if let (Some(tracks), Some(checkpoint)) = (&tracks_at, &checkpoint)
         && tracks == checkpoint.destination()
     {
@@ -75,13 +86,14 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
-        (Some(scene), _) => World::build_named(scene, arguments.scene.name())?,
+        (Some(scene), _) => World::build_shard(scene, arguments.scene.name(), arguments.shard.part())?,
         (None, path) => {
             let allowed = arguments.scene.outside.named_files();
             read_checkpoint(path.as_deref().unwrap_or(Path::new("")), allowed)?
         }
     };
     let written = checkpoint.as_ref().map(OutputFile::destination).or(tracks_at.as_deref());
+    let written = written.or(report_file.as_ref().map(OutputFile::destination));
     let mut kept = match written {
         Some(written) => {
             let identity = identity(arguments, &world, choice.device.contract());
@@ -143,6 +155,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         tracks.complete()?;
         fs::rename(kept.tracks(), path).map_err(WriteError::at(path))?;
     }
+    if let Some(file) = report_file {
+        let run = run_identity(arguments, &world, choice.device.contract());
+        write_report(&report, &run, world.compiled.shard(), file)?;
+    }
     kept.into_iter().for_each(KeptSimulation::finish);
     if arguments.json {
         terminal::print(&format!("{}\n", serde_json::to_string(&report)?))
@@ -161,6 +177,25 @@ fn identity(arguments: &Arguments, world: &World, contract: Contract) -> Identit
         options.insert("state".into(), format!("{:016x}", world.state_hash()).into());
     }
     work_identity("simulate", world.compiled.scene(), &options)
+}
+
+/// Everything that the outcome of a run from the beginning depends on, whatever the shard.
+fn run_identity(arguments: &Arguments, world: &World, contract: Contract) -> Identity {
+    let options =
+        json!({ "steps": arguments.steps, "step": world.clock.step(), "contract": contract.to_string() });
+    work_identity("simulate", world.compiled.scene(), &options)
+}
+
+/// Writes a report with the run and the shard that it is of.
+fn write_report(report: &Report, run: &Identity, shard: Shard, mut file: OutputFile) -> anyhow::Result<()> {
+    let mut values = serde_json::to_value(report)?;
+    values[RUN] = run.values().clone();
+    if !shard.is_whole() {
+        values["shard"] = json!({ "number": shard.number(), "count": shard.count() });
+    }
+    let path = file.destination().to_owned();
+    file.write_all(format!("{values}\n").as_bytes()).map_err(WriteError::at(&path))?;
+    Ok(file.finish()?)
 }
 
 /// A run on its way.

@@ -9,6 +9,7 @@ use std::thread;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
+use windfall_core::Shard;
 use windfall_cpu::CpuOptions;
 
 use crate::leaves::load_scene;
@@ -20,7 +21,7 @@ use crate::run::parse::whole;
 use crate::run::parse::within;
 use crate::run::progress;
 use crate::run::scene_arguments::{DEFAULT_SCENE, OutsideArguments};
-use crate::run::terminal;
+use crate::run::{sharding, terminal};
 use crate::study::drops::DropOptions;
 use crate::study::{Point, StudyFolder, Summary, Variation, points_of};
 
@@ -46,6 +47,10 @@ pub struct Arguments {
     /// At a variant the number of the scene's own is meant; another is named: wind.speed.Beaufort=0..6/7.
     #[arg(long, value_name = "PATH=VALUES", required = true)]
     vary: Vec<Variation>,
+    /// Work on the K-th of N shares of the points only, on any machine that has DIR; the same command without this ends the study, with the tables and
+    /// pictures of all points, once all shares are done.
+    #[arg(long, value_name = "K/N", value_parser = sharding::parse)]
+    share: Option<Shard>,
     /// Drops at each point, shared by the sources as they share the scene's leaves [default: all leaves of the sources].
     #[arg(long, value_name = "N", value_parser = whole::<u32, 1, 10_000_000>)]
     drops: Option<u32>,
@@ -90,7 +95,14 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let contract = device.contract();
     let cancel = Cancel::on_interrupt();
     let folder = StudyFolder::open(&arguments.out, &scene, &arguments.vary, &options, contract)?;
-    let summaries = work(&folder, &points, &device, &options, &cancel)?;
+    if let Some(share) = arguments.share {
+        let own = (0..points.len()).skip(share.number() as usize - 1).step_by(share.count() as usize);
+        let own: Vec<_> = own.collect();
+        let done = work(&folder, &points, &own, &device, &options, &cancel)?.len();
+        return terminal::print(&format!("{}: {done} of {} points\n", arguments.out.display(), points.len()));
+    }
+    let all: Vec<_> = (0..points.len()).collect();
+    let summaries = work(&folder, &points, &all, &device, &options, &cancel)?;
     folder.write_summary(&arguments.vary, &points, &summaries)?;
     draw(&folder, name, &scene, &arguments.vary, &points, &summaries, &cancel)?;
     let aloft: u64 = summaries.iter().map(|summary| u64::from(summary.drops - summary.landed)).sum();
@@ -101,10 +113,11 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     terminal::print(&format!("{}\n", arguments.out.display()))
 }
 
-/// Works on all points that are not finished, several at once on the processor.
+/// Works on those of some points that are not finished, several at once on the processor.
 fn work(
     folder: &StudyFolder,
     points: &[Point],
+    own: &[usize],
     device: &Device,
     options: &DropOptions,
     cancel: &Cancel,
@@ -117,7 +130,7 @@ fn work(
         }
         Device::Wgpu(gpu) => (1, Device::Wgpu(gpu.clone())),
     };
-    let bar = progress::bar(points.len() as u64, "point");
+    let bar = progress::bar(own.len() as u64, "point");
     let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let summaries: Mutex<Vec<Option<Summary>>> = Mutex::new(vec![None; points.len()]);
     let point = |number: usize| -> anyhow::Result<()> {
@@ -132,8 +145,8 @@ fn work(
         Ok(())
     };
     let worker = || loop {
-        let number = next.fetch_add(1, Ordering::Relaxed);
-        if number >= points.len() || failed.load(Ordering::Relaxed) {
+        let Some(&number) = own.get(next.fetch_add(1, Ordering::Relaxed)) else { return Ok(()) };
+        if failed.load(Ordering::Relaxed) {
             return Ok(());
         }
         if let Err(error) = point(number) {
@@ -142,7 +155,7 @@ fn work(
         }
     };
     let outcome = thread::scope(|scope| {
-        let workers: Vec<_> = (0..workers.min(points.len())).map(|_| scope.spawn(worker)).collect();
+        let workers: Vec<_> = (0..workers.min(own.len())).map(|_| scope.spawn(worker)).collect();
         let ended = workers.into_iter().map(|worker| worker.join());
         let ended: Vec<_> =
             ended.map(|end| end.map_err(|_| anyhow!("a thread of the study ended early"))).collect();

@@ -67,22 +67,22 @@ impl Observer {
         let step = world.step_block();
         let cx = world.context(&step);
         self.leaves.clear();
-        self.leaves.extend((0..world.leaves.len()).map(|slot| leaf(world, &cx, slot)));
+        let rows = world.compiled.shard_rows().leaves();
+        self.leaves.extend(rows.map(|(row, slot)| leaf(world, &cx, row, slot)));
         self.particles.clear();
         self.particles.extend(LiveParticle::all(world));
         Frame { number, world, leaves: &self.leaves, particles: &self.particles }
     }
 }
 
-/// The leaf in a slot.
-fn leaf(world: &World, cx: &Context<'_>, slot: usize) -> FrameLeaf {
-    let leaf = world.leaves.view(cx, slot);
+/// The leaf in a row, which is that of a slot.
+fn leaf(world: &World, cx: &Context<'_>, row: usize, slot: u32) -> FrameLeaf {
+    let leaf = world.leaves.view(cx, row);
     // A leaf that nothing has turned yet has no attitude.
     let quaternion = leaf.attitude.to_array();
     let is_turned = quaternion.iter().map(|part| part * part).sum::<f32>() > 0.25;
     FrameLeaf {
-        // Scenes have far fewer leaves.
-        slot: u32::try_from(slot).unwrap_or(u32::MAX),
+        slot,
         id: leaf.id,
         state: leaf.state,
         motion: leaf.motion_code(),
@@ -91,6 +91,6 @@ fn leaf(world: &World, cx: &Context<'_>, slot: usize) -> FrameLeaf {
         quaternion: if is_turned { quaternion } else { [0.0, 0.0, 0.0, 1.0] },
         velocity_m_s: leaf.velocity.to_array(),
         size: leaf.size,
-        appearance: world.leaves.identity[slot].appearance,
+        appearance: world.leaves.identity[row].appearance,
     }
 }

@@ -29,8 +29,8 @@ pub(crate) use format::Format;
 pub(crate) use frame::Observer;
 pub(crate) use frame::{Frame, FrameLeaf};
 pub(crate) use space::{Content, Estimate, check_space};
-use windfall_core::Scene;
 use windfall_core::solid::Solid;
+use windfall_core::{Scene, Shard, ShardRows};
 use windfall_render::trees::SceneTrees;
 
 use crate::files::Identity;
@@ -46,6 +46,10 @@ pub(crate) struct Job<'a> {
     pub solids: &'a [Solid],
     /// Its trees.
     pub scene_trees: &'a SceneTrees,
+    /// The part of it that is written.
+    pub shard: Shard,
+    /// The leaves and trees of that part.
+    pub shard_rows: &'a ShardRows,
     /// Path that the result will lie at.
     pub path: &'a Path,
     /// Frames that come.

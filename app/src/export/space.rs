@@ -6,8 +6,8 @@ use std::fmt;
 use std::path::Path;
 
 use anyhow::bail;
-use windfall_core::Scene;
 use windfall_core::particle::history_runs;
+use windfall_core::{Scene, Shard};
 
 use super::blob_mesh::is_blobs;
 use super::snow_mesh::cell_count;
@@ -33,11 +33,15 @@ pub(crate) struct Content {
 }
 
 impl Content {
-    /// That of a scene.
-    pub(crate) fn of(scene: &Scene) -> Self {
+    /// That of a shard of a scene.
+    pub(crate) fn of(scene: &Scene, shard: Shard) -> Self {
+        let leaves = scene.leaf_count().div_ceil(shard.count());
+        if !shard.is_first() {
+            return Self { leaves, particles: 0, blobs: 0, samples: 0, snow: 0 };
+        }
         let blobs = scene.particles.iter().filter(|population| is_blobs(population));
         Self {
-            leaves: scene.leaf_count(),
+            leaves,
             particles: scene.particle_count(),
             blobs: blobs.map(|population| population.count).sum(),
             samples: history_runs(scene).iter().map(|(_, run)| run.count * run.samples).sum(),
@@ -166,7 +170,7 @@ mod tests {
         let clouds = Estimate::new(Format::Ply, frames, sparks, path);
         assert_eq!(clouds.bytes, 10_000 * 100 * ply::PARTICLE_BYTES, "a vertex for each slot and frame");
         let snowy = Scene { weather: Some(Weather::default()), ..Scene::default() };
-        let snow = Content { leaves: 0, ..Content::of(&snowy) };
+        let snow = Content { leaves: 0, ..Content::of(&snowy, Shard::WHOLE) };
         let meshes = Estimate::new(Format::Ply, frames, snow, path);
         assert_eq!(meshes.bytes, 10_000 * 320 * 320 * ply::SNOW_BYTES, "40 m x 40 m of cells for each frame");
         estimate.free = Some(estimate.bytes);

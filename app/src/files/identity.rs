@@ -14,6 +14,11 @@ impl Identity {
         Self(values)
     }
 
+    /// Its values.
+    pub(crate) fn values(&self) -> &Value {
+        &self.0
+    }
+
     /// Its text: equal for equal work.
     pub(crate) fn text(&self) -> String {
         format!("{:#}\n", self.0)

@@ -85,6 +85,8 @@ impl LiveParticle {
 
     /// Those that live in the first `most` slots of a population, slot by slot.
     pub(crate) fn first_of(world: &World, population: usize, most: u32) -> impl Iterator<Item = Self> {
+        // Particles are all in the first shard.
+        let most = if world.compiled.shard().is_first() { most } else { 0 };
         let slots = world.compiled.scene().particles[population].count.min(most);
         (0..slots).filter_map(move |slot| Self::of(world, population, slot))
     }

@@ -3,7 +3,7 @@
 //! Memory that scenes take, and that is free.
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
-use windfall_core::{Scene, SceneError, World};
+use windfall_core::{Scene, SceneError, Shard, World};
 
 /// Times that the state is in memory: in the world, and in the simulator or as what is kept for the loss of a device.
 const COPIES: u64 = 2;
@@ -13,18 +13,27 @@ const COPIES: u64 = 2;
 /// # Errors
 /// Names the scene, what it would need, and what there is.
 pub fn check_memory(file: &str, scene: &Scene) -> Result<(), SceneError> {
-    check_room(file, scene, free_memory())
+    check_shard_memory(file, scene, Shard::WHOLE)
+}
+
+/// The same for a shard of a scene.
+///
+/// # Errors
+/// Names the scene, what the shard would need, and what there is.
+pub(crate) fn check_shard_memory(file: &str, scene: &Scene, shard: Shard) -> Result<(), SceneError> {
+    check_room(file, scene, shard, free_memory())
 }
 
 /// The same for so many bytes that are free, if that is known.
-fn check_room(file: &str, scene: &Scene, free: Option<u64>) -> Result<(), SceneError> {
+fn check_room(file: &str, scene: &Scene, shard: Shard, free: Option<u64>) -> Result<(), SceneError> {
     let (leaves, particles) = (scene.leaf_count(), scene.particle_count());
     let what = match (leaves, particles) {
         (_, 0) => format!("{leaves} leaves"),
         (0, _) => format!("{particles} particles"),
         _ => format!("{leaves} leaves and {particles} particles"),
     };
-    check_bytes(file, &what, World::counted_bytes(scene), free)
+    let what = if shard.is_whole() { what } else { format!("a shard of {what}") };
+    check_bytes(file, &what, World::counted_bytes(scene).div_ceil(shard.count().into()), free)
 }
 
 /// Refuses a file of a state of so many bytes that does not fit into the memory that is free.
@@ -65,16 +74,22 @@ mod tests {
         let mut scene =
             Scene { sources: vec![Source { count: 1 << 20, ..Source::default() }], ..Scene::default() };
         let leaves = 2 * LEAF_BYTES as u64 * (1 << 20);
-        check_room("a", &scene, Some(leaves)).expect("they just fit");
-        check_room("a", &scene, None).expect("nothing is known of this system");
-        let error = check_room("a", &scene, Some(leaves - 1)).expect_err("a byte too little").to_string();
+        check_room("a", &scene, Shard::WHOLE, Some(leaves)).expect("they just fit");
+        check_room("a", &scene, Shard::WHOLE, None).expect("nothing is known of this system");
+        let error = check_room("a", &scene, Shard::WHOLE, Some(leaves - 1))
+            .expect_err("a byte too little")
+            .to_string();
         let needed =
             format!("the memory that it needs is {} MiB, for 1048576 leaves; allowed: the ", leaves >> 20);
         assert!(error.starts_with("a: ") && error.contains(&needed), "{error}");
         assert!(error.contains(&format!("the {} MiB that are free", (leaves - 1) >> 20)), "{error}");
         scene.particles = vec![Particles { count: 1000, ..Particles::default() }];
-        let error = check_room("a", &scene, Some(leaves)).expect_err("particles come on top").to_string();
+        let error = check_room("a", &scene, Shard::WHOLE, Some(leaves))
+            .expect_err("particles come on top")
+            .to_string();
         assert!(error.contains("1048576 leaves and 1000 particles"), "{error}");
+        let half = Shard::new(2, 2).expect("one of two");
+        check_room("a", &scene, half, Some(leaves)).expect("half of it fits");
         check_memory("a", &Scene::default()).expect("nothing fits into any memory");
         check_state("a", u64::MAX).expect_err("more than any machine has");
     }

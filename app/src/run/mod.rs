@@ -19,6 +19,7 @@ pub(crate) mod planned_loss;
 pub(crate) mod progress;
 pub(crate) mod report;
 pub(crate) mod scene_arguments;
+pub(crate) mod sharding;
 pub(crate) mod shots;
 pub(crate) mod sky_arguments;
 pub(crate) mod stepping;

@@ -175,6 +175,8 @@ impl Report {
         let counts = world.stats().leaves;
         let LeafStats { attached, falling, resting, dormant, .. } = counts;
         let total = counts.total();
+        let slots = &world.compiled.shard_rows().slots;
+        let leaves = slots.end - slots.start;
         let (mean_position_m, mean_velocity_m_s) = means(world, total);
         Self {
             scene,
@@ -193,7 +195,7 @@ impl Report {
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
-            leaf_steps_per_s: stepping.rate(world.compiled.scene().leaf_count(), steps - earlier),
+            leaf_steps_per_s: stepping.rate(leaves, steps - earlier),
             cpu_s: stepping.cpu.as_secs_f64(),
             bytes_per_leaf: LEAF_BYTES,
         }

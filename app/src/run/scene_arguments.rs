@@ -3,11 +3,11 @@
 //! Scene that a command works on, and the number of its leaves.
 
 use clap::Args;
-use windfall_core::Scene;
 use windfall_core::scene::{MAX_LEAVES, NamedFiles};
+use windfall_core::{Scene, Shard};
 
 use crate::leaves::load_scene;
-use crate::run::memory::check_memory;
+use crate::run::memory::check_shard_memory;
 use crate::run::parse::option_error;
 use crate::run::parse::whole;
 
@@ -57,6 +57,14 @@ impl SceneArguments {
     /// # Errors
     /// A scene that cannot be read or used, or more leaves than memory holds.
     pub(crate) fn load(&self) -> anyhow::Result<Scene> {
+        self.load_for(Shard::WHOLE)
+    }
+
+    /// The whole scene, scaled and seeded, of which one shard is to be built.
+    ///
+    /// # Errors
+    /// A scene that cannot be read or used, or more leaves in the shard than memory holds.
+    pub(crate) fn load_for(&self, shard: Shard) -> anyhow::Result<Scene> {
         let mut scene = load_scene(self.name(), self.outside.named_files())?;
         if let Some(seed) = self.seed {
             scene.seed = seed;
@@ -65,7 +73,7 @@ impl SceneArguments {
             let scaled = scene.with_leaf_count(self.name(), leaves);
             scene = scaled.map_err(|error| option_error(error, Scene::LEAF_COUNT, "--leaves"))?;
         }
-        check_memory(self.name(), &scene)?;
+        check_shard_memory(self.name(), &scene, shard)?;
         Ok(scene)
     }
 }

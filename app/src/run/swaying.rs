@@ -79,8 +79,8 @@ impl Swaying {
     pub(crate) fn finish(&self, world: &World) -> TreeReport {
         let extent = self.extent.or(extent(world));
         TreeReport {
-            count: world.compiled.forest().trees().len(),
-            segments: world.compiled.forest().len(),
+            count: world.compiled.shard_rows().trees.len(),
+            segments: world.compiled.shard_rows().segments.len(),
             max_joint_angle_rad: extent.joint_angle_rad,
             tip_speed_max_m_s: extent.tip_speed_m_s,
             leaves_shed: falls(world).saturating_sub(self.falls),
@@ -96,7 +96,8 @@ fn extent(world: &World) -> SwayExtent {
 /// all slots.
 fn falls(world: &World) -> u64 {
     let scene = world.compiled.scene();
-    let (slots, of_trees) = (scene.leaf_count(), scene.tree_leaf_count() as usize);
+    let (slots, of_trees) = (scene.leaf_count(), scene.tree_leaf_count());
+    let of_trees = world.compiled.shard_rows().rows_on_trees(of_trees) as usize;
     let numbers = world.leaves.identity.iter().take(of_trees);
     numbers.map(|identity| u64::from(identity.id / slots)).sum()
 }

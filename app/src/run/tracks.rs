@@ -16,6 +16,7 @@ use super::leaf_row::{LeafRow, header};
 use super::live_particle::{self, LiveParticle};
 use crate::files::{CsvFile, OutputFile, WriteError};
 use crate::run::parse::whole;
+use crate::run::sharding::ShardArguments;
 
 /// Columns before those of the leaf or the particle.
 const BEFORE: [&str; 2] = ["step", "time_s"];
@@ -40,12 +41,15 @@ pub(crate) struct TrackArguments {
 }
 
 impl TrackArguments {
-    /// Path that the table will lie at, if there is to be one. Links stay links.
+    /// Path that the table of a shard will lie at, if there is to be one. Links stay links.
     ///
     /// # Errors
     /// Whatever would keep it from lying there.
-    pub(crate) fn destination(&self) -> Result<Option<PathBuf>, WriteError> {
-        self.tracks.as_deref().map(|path| Ok(OutputFile::create(path)?.destination().to_owned())).transpose()
+    pub(crate) fn destination(&self, shard: &ShardArguments) -> Result<Option<PathBuf>, WriteError> {
+        self.tracks
+            .as_deref()
+            .map(|path| Ok(OutputFile::create(&shard.path(path))?.destination().to_owned()))
+            .transpose()
     }
 
     /// Begins the table for a scene in `part`, or goes on behind its first `kept` bytes; `destination` is the path that it will lie at.
@@ -63,7 +67,7 @@ impl TrackArguments {
             Some(_) => live_particle::header(&BEFORE),
         };
         let tracked = match &self.population {
-            None => Tracked::Leaves(self.track_leaves as usize),
+            None => Tracked::Leaves(self.track_leaves),
             Some(name) => {
                 Tracked::Particles { population: population(scene, name)?, most: self.track_leaves }
             }
@@ -100,7 +104,7 @@ fn population(scene: &Scene, name: &str) -> anyhow::Result<usize> {
 #[derive(Debug)]
 enum Tracked {
     /// The first so many leaves.
-    Leaves(usize),
+    Leaves(u32),
     /// Particles in the first slots of a population.
     Particles { population: usize, most: u32 },
 }
@@ -118,7 +122,7 @@ impl Tracks {
     ///
     /// # Errors
     /// Whatever would keep the file from being written.
-    pub(crate) fn create(path: &Path, every: u32, leaves: usize) -> anyhow::Result<Self> {
+    pub(crate) fn create(path: &Path, every: u32, leaves: u32) -> anyhow::Result<Self> {
         let table = CsvFile::create(path, &header(&BEFORE, &[]))?;
         Ok(Self { table, every, tracked: Tracked::Leaves(leaves) })
     }
@@ -168,7 +172,11 @@ impl<W: Write> Tracks<W> {
             Tracked::Leaves(leaves) => {
                 let step = world.step_block();
                 let cx = world.context(&step);
-                (0..world.leaves.len().min(leaves)).try_for_each(|slot| self.add(world, &cx, slot))
+                let rows = world.compiled.shard_rows().leaves();
+                let mut tracked = rows.take_while(|(_, slot)| *slot < leaves);
+                tracked.try_for_each(|(row, slot)| {
+                    Ok(write_row(&mut self.table, world, slot, &world.leaves.view(&cx, row))?)
+                })
             }
             Tracked::Particles { population, most } => {
                 let name = &world.compiled.scene().particles[population].name;
@@ -185,7 +193,9 @@ impl<W: Write> Tracks<W> {
     /// # Errors
     /// Errors of the system, named with the path.
     pub(crate) fn add(&mut self, world: &World, cx: &Context<'_>, slot: usize) -> anyhow::Result<()> {
-        Ok(write_row(&mut self.table, world, slot, &world.leaves.view(cx, slot))?)
+        // Scenes have far fewer leaves.
+        let number = u32::try_from(slot).unwrap_or(u32::MAX);
+        Ok(write_row(&mut self.table, world, number, &world.leaves.view(cx, slot))?)
     }
 }
 
@@ -198,14 +208,13 @@ fn begin_row<W: Write>(table: &mut CsvFile<W>, world: &World) {
 fn write_row<W: Write>(
     table: &mut CsvFile<W>,
     world: &World,
-    slot: usize,
+    slot: u32,
     leaf: &LeafView,
 ) -> Result<(), WriteError> {
     begin_row(table, world);
     let species = world.compiled.scene().species.get(leaf.species);
     let row = LeafRow {
-        // Scenes have far fewer leaves.
-        slot: u32::try_from(slot).unwrap_or(u32::MAX),
+        slot,
         id: leaf.id,
         state: leaf.state,
         motion: leaf.motion_code(),
@@ -232,8 +241,8 @@ mod tests {
         let cx = world.context(&step);
         let mut table =
             CsvFile::new(Vec::new(), Path::new("tracks.csv"), &header(&BEFORE, &[])).expect("room");
-        for slot in (0..world.leaves.len()).step_by(97) {
-            write_row(&mut table, &world, slot, &world.leaves.view(&cx, slot))
+        for slot in (0..scene.leaf_count()).step_by(97) {
+            write_row(&mut table, &world, slot, &world.leaves.view(&cx, slot as usize))
                 .expect("as long as the header");
         }
         let dormant = LeafView { state: LeafState::Dormant, ..world.leaves.view(&cx, 0) };

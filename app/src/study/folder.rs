@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The folder of a study: what study it is, and every finished point as a folder of its own.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -61,8 +62,11 @@ impl StudyFolder {
                 identity.difference(&found)
             ),
             Err(_) if path.is_dir() => {
-                let mut entries = fs::read_dir(path).map_err(WriteError::at(path))?;
-                if entries.next().is_some() {
+                let entries = fs::read_dir(path).map_err(WriteError::at(path))?;
+                // Another share of this study may begin at the same moment, and be seen halfway.
+                let is_hidden = |name: OsString| name.as_encoded_bytes().starts_with(b".");
+                let is_other = entries.flatten().any(|entry| !is_hidden(entry.file_name()));
+                if is_other && fs::read_to_string(&known).ok().as_ref() != Some(&text) {
                     bail!(
                         "{}: holds something that is no study; allowed: a new or empty folder, or this study's own",
                         path.display()

@@ -154,6 +154,11 @@ impl ShardRows {
         self.slots.start - self.first_row
     }
 
+    /// Rows of its leaves, each with its slot.
+    pub fn leaves(&self) -> impl Iterator<Item = (usize, u32)> + use<> {
+        (self.unused_rows() as usize..).zip(self.slots.clone())
+    }
+
     /// Number of rows of leaves up to the last that a tree of the scene has.
     pub fn rows_on_trees(&self, tree_leaf_count: u32) -> u32 {
         tree_leaf_count.clamp(self.first_row, self.slots.end) - self.first_row

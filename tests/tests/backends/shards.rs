@@ -140,8 +140,7 @@ fn what_leaves_share_is_not_divided() {
         let scene = Scene::preset(name).expect("a preset");
         World::build_shard(&scene, name, half).expect_err("shared").to_string()
     };
-    for (name, field) in [("blower", "ground.litter"), ("winter", "weather"), ("bonfire", "ground.litter")]
-    {
+    for (name, field) in [("blower", "ground.litter"), ("winter", "weather"), ("bonfire", "ground.litter")] {
         let error = refused(name);
         assert!(error.contains(field) && error.contains("share"), "{name}: {error}");
     }

@@ -24,6 +24,7 @@ mod machine_fails;
 #[cfg(unix)]
 mod outside;
 mod render;
+mod shards;
 mod simulate;
 mod study;
 // Other processors flush by other means, other systems load by others.

@@ -25,6 +25,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
+use windfall_core::Shard;
 use windfall_core::leaf::LeafState;
 use windfall_render::light::Daylight;
 
@@ -76,6 +77,7 @@ pub(super) struct UsdExport {
     solids: SolidSamples,
     view: ViewSamples,
     clock: stage::Clock,
+    shard: Shard,
     /// Greatest distance of a leaf's corners from its place in metres.
     reach_m: f32,
 }
@@ -103,12 +105,12 @@ impl UsdExport {
         drop(atlas);
         let clock = stage::Clock::new(job.frames, job.fps);
         let mut samples = Samples::new();
-        let attributes = LeafAttributes::declare(&mut samples);
+        let attributes = LeafAttributes::declare(&mut samples, job.shard);
         let particles = ParticleSamples::declare(&mut samples, job.scene);
         let blobs = BlobSamples::declare(&mut samples, job.scene);
         let snow = SnowSamples::declare(&mut samples, job.scene);
         let ways = HistorySamples::declare(&mut samples, job.scene);
-        let trees = TreeSamples::declare(&mut samples, job.scene_trees);
+        let trees = TreeSamples::declare(&mut samples, job);
         let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);
         let next = written.as_ref().map_or(job.frames.first, |written| written.next);
@@ -150,6 +152,7 @@ impl UsdExport {
             solids,
             view,
             clock,
+            shard: job.shard,
             reach_m,
         })
     }
@@ -195,7 +198,7 @@ impl Exporter for UsdExport {
             self.work.note_progress(&Written { next: self.next, layers })?;
         }
         let name = self.folder.file_name().unwrap_or_default().to_string_lossy();
-        let text = stage::root(self.clock, &name, self.samples.layers());
+        let text = stage::root(self.clock, self.shard, &name, self.samples.layers());
         self.root.write_all(text.as_bytes()).map_err(WriteError::at(&path))?;
         let old = self.folder.with_file_name(format!(".{name}.old"));
         if !self.work.is_moved() {
@@ -249,8 +252,9 @@ struct LeafAttributes {
 }
 
 impl LeafAttributes {
-    fn declare(samples: &mut Samples) -> Self {
-        let mut declare = |declaration| samples.declare("World/Leaves", declaration);
+    fn declare(samples: &mut Samples, shard: Shard) -> Self {
+        let prim = format!("World/{}", stage::leaf_prim(shard));
+        let mut declare = |declaration| samples.declare(&prim, declaration);
         Self {
             ids: declare("int64[] ids"),
             kinds: declare("int[] protoIndices"),

@@ -4,6 +4,7 @@
 
 use std::io::{self, Write};
 
+use windfall_core::Shard;
 use windfall_render::light::Daylight;
 
 use super::samples::SampleLayer;
@@ -43,8 +44,13 @@ impl Clock {
     }
 }
 
+/// Name of the prim of the leaves of a shard.
+pub(super) fn leaf_prim(shard: Shard) -> String {
+    if shard.is_whole() { "Leaves".into() } else { format!("Leaves_{}", shard.number()) }
+}
+
 /// The root layer above the layers in the folder `folder`.
-pub(super) fn root(clock: Clock, folder: &str, layers: &[SampleLayer]) -> String {
+pub(super) fn root(clock: Clock, shard: Shard, folder: &str, layers: &[SampleLayer]) -> String {
     let metadata = clock.metadata();
     let asset = |name: &str| format!("@./{folder}/{name}@");
     let mut below = vec![asset(STAGE)];
@@ -59,8 +65,10 @@ pub(super) fn root(clock: Clock, folder: &str, layers: &[SampleLayer]) -> String
         );
         let FrameRange { first, last } = clock.frames;
         let paths: Vec<String> = layers.iter().map(|layer| asset(&layer.name)).collect();
+        // Those of several shards stand side by side.
+        let set = if shard.is_whole() { "default".into() } else { format!("shard_{:05}", shard.number()) };
         world = format!(
-            "\nover \"World\" (\nclips = {{\ndictionary default = {{\ndouble2[] active = {active}\n\
+            "\nover \"World\" (\nclips = {{\ndictionary {set} = {{\ndouble2[] active = {active}\n\
             asset[] assetPaths = [{}]\nasset manifestAssetPath = {}\nstring primPath = \"/World\"\n\
             double2[] times = [({first}, {first}), ({last}, {last})]\n}}\n}}\n)\n{{\n}}\n",
             paths.join(", "),
@@ -96,8 +104,9 @@ pub(super) fn write_stage(
     snow::write_material(out, job.scene)?;
     let (parts, paints) = solid_parts(job.solids);
     solids::write_materials(out, &paints)?;
-    writeln!(out, "}}\ndef PointInstancer \"Leaves\"\n{{")?;
-    let paths = foliage.meshes.iter().map(|mesh| format!("</World/Leaves/Prototypes/{}>", mesh.name));
+    let leaves = leaf_prim(job.shard);
+    writeln!(out, "}}\ndef PointInstancer \"{leaves}\"\n{{")?;
+    let paths = foliage.meshes.iter().map(|mesh| format!("</World/{leaves}/Prototypes/{}>", mesh.name));
     writeln!(out, "rel prototypes = [{}]", paths.collect::<Vec<_>>().join(", "))?;
     writeln!(out, "int[] primvars:windfall:state (\ninterpolation = \"varying\"\n)")?;
     prototypes::write_meshes(out, foliage)?;
@@ -106,7 +115,7 @@ pub(super) fn write_stage(
     blobs::write_blobs(out, job.scene)?;
     snow::write_snow(out, job.scene)?;
     histories::write_histories(out, job.scene)?;
-    trees::write_trees(out, job.scene_trees)?;
+    trees::write_trees(out, job)?;
     solids::write_parts(out, &parts, &paints)?;
     surfaces.iter().try_for_each(|surface| write_surface(out, surface))?;
     writeln!(out, "}}")

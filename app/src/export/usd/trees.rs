@@ -14,11 +14,11 @@ use windfall_render::trees::{SceneTrees, StandingTree};
 use super::prototypes::{Coat, NORMAL_PLACES, PICTURES, extent_of, write_material, write_plain};
 use super::samples::{Handle, Samples};
 use super::text;
-use crate::export::Frame;
 use crate::export::fruit::{SKIN, fruit};
 use crate::export::wood::{
     Joint, at_rest, at_rest_above, bark, bark_name, bark_picture, barks, joints, rotations,
 };
+use crate::export::{Frame, Job};
 use crate::files::WriteError;
 
 /// Decimal places of corners in metres.
@@ -31,8 +31,8 @@ pub(super) struct TreeSamples {
 }
 
 impl TreeSamples {
-    pub(super) fn declare(samples: &mut Samples, scene_trees: &SceneTrees) -> Self {
-        let trees = scene_trees.trees.iter().enumerate().map(|(number, tree)| {
+    pub(super) fn declare(samples: &mut Samples, job: &Job<'_>) -> Self {
+        let trees = numbered(job).map(|(number, tree)| {
             let prim = format!("World/Trees/Tree_{number}/Sway");
             (samples.declare(&prim, "quatf[] rotations"), joints(tree))
         });
@@ -47,14 +47,20 @@ impl TreeSamples {
     }
 }
 
+/// The trees of a job's shard with their numbers.
+fn numbered<'a>(job: &Job<'a>) -> impl Iterator<Item = (usize, &'a StandingTree)> {
+    let own = job.shard_rows.trees.clone();
+    own.clone().zip(&job.scene_trees.trees[own])
+}
+
 /// Writes the trees.
-pub(super) fn write_trees(out: &mut impl Write, scene_trees: &SceneTrees) -> io::Result<()> {
-    if scene_trees.trees.is_empty() {
+pub(super) fn write_trees(out: &mut impl Write, job: &Job<'_>) -> io::Result<()> {
+    if job.shard_rows.trees.is_empty() {
         return Ok(());
     }
     writeln!(out, "def Scope \"Trees\"\n{{")?;
-    for (number, tree) in scene_trees.trees.iter().enumerate() {
-        write_tree(out, scene_trees, tree, &format!("Tree_{number}"))?;
+    for (number, tree) in numbered(job) {
+        write_tree(out, job.scene_trees, tree, &format!("Tree_{number}"))?;
     }
     writeln!(out, "}}")
 }
