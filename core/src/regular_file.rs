@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads files that scenes name: regular ones of a bounded size alone, as a pipe that nobody writes to and a device have no end. And tells
-//! those that lie in a folder from those outside it.
+//! Reads files that scenes name: regular ones of a bounded size alone, as a pipe that nobody writes to and a device have no end. And
+//! distinguishes those that lie in a folder from those outside it.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};

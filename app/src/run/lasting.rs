@@ -3,7 +3,7 @@
 //! A simulator that outlives the graphics device it runs on.
 //!
 //! Of a state that is on a lost device nothing can be read any more. So a state is kept on this side from time to time; the processor goes on
-//! from there, through the steps that are lost first. Steps depend on nothing but the state, so under the exact contract nobody can tell.
+//! from there, through the steps that are lost first. Steps depend on nothing but the state, so under the exact contract its bits are the same.
 
 use std::time::{Duration, Instant};
 
