@@ -36,7 +36,7 @@ impl PyScene {
             return Ok((scene.scene.clone(), scene.file.clone()));
         }
         let path = given.py().import("os")?.call_method1("fspath", (given,))?;
-        let Self { scene, file } = Self::load(given.py(), path.extract()?)?;
+        let Self { scene, file } = Self::load(given.py(), path.extract()?, false)?;
         Ok((scene, file))
     }
 
