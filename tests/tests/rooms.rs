@@ -27,6 +27,7 @@ const APP: Order = Order {
         "leaves",
         "run",
         "output",
+        "merge",
         "study",
         "export",
         "plot",

@@ -127,9 +127,11 @@ impl ShardRows {
             let cut = cut as u32;
             let before = match number {
                 0 => 0,
-                _ => batches.partition_point(|batch| batch.slots.end <= cut),
+                // The end of a batch that is nearest.
+                _ => batches.partition_point(|batch| batch.slots.start.midpoint(batch.slots.end) <= cut),
             };
-            (before, batches.get(before).map_or(cut, |batch| batch.slots.start))
+            let behind_trees = cut.max(scene.tree_leaf_count());
+            (before, batches.get(before).map_or(behind_trees, |batch| batch.slots.start))
         };
         let ((first_batch, first), (end_batch, end)) = (begin(shard.number - 1), begin(shard.number));
         let row_of = |batch: usize| batches.get(batch).map_or(forest.len(), |batch| batch.first as usize);

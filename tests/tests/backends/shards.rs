@@ -136,16 +136,18 @@ fn a_shard_is_resumed_to_the_bit() {
 #[test]
 fn what_leaves_share_is_not_divided() {
     let half = Shard::new(1, 2).expect("one of two");
-    let refused = |name: &str| {
-        let scene = Scene::preset(name).expect("a preset");
-        World::build_shard(&scene, name, half).expect_err("shared").to_string()
-    };
-    for (name, field) in [("blower", "ground.litter"), ("winter", "weather"), ("bonfire", "ground.litter")] {
-        let error = refused(name);
-        assert!(error.contains(field) && error.contains("share"), "{name}: {error}");
+    let refused =
+        |scene: &Scene| World::build_shard(scene, "it", half).map(|_| ()).expect_err("shared").to_string();
+    let mut snow = Scene::preset("snowstorm").expect("a preset");
+    snow.ground.litter = None;
+    let litter = Scene::preset("blower").expect("a preset");
+    for (scene, field) in [(litter, "it: ground.litter is"), (snow, "it: weather is")] {
+        let error = refused(&scene);
+        assert!(error.contains(field) && error.contains("share"), "{error}");
     }
     let scene = Scene { sources: vec![Source { count: 3, ..Source::default() }], ..Scene::default() };
-    let error =
-        World::build_shard(&scene, "few", Shard::new(4, 4).expect("one of four")).expect_err("three leaves");
+    let error = World::build_shard(&scene, "few", Shard::new(4, 4).expect("one of four"))
+        .map(|_| ())
+        .expect_err("three leaves");
     assert!(error.to_string().contains("at most 3 shards"), "{error}");
 }

@@ -33,8 +33,8 @@ fn in_three(there: &TempDir, words: &[&str], second: &[&str]) {
 fn shards_of_a_simulation_are_put_together() {
     let there = folder();
     let at = |name: &str| there.path().join(name);
-    let words = ["simulate", "forest", "--leaves", "3000", "--steps", "40", "--track-every", "20"];
-    let tracked = [&words[..], &["--track-leaves", "2500", "--backend", "cpu"]].concat();
+    let words = ["simulate", "forest", "--leaves", "3000", "--steps", "40", "--backend", "cpu"];
+    let tracked = [&words[..], &["--track-every", "20", "--track-leaves", "2500"]].concat();
     run(&there, &[&tracked[..], &["--report", "one.json", "--tracks", "one.csv"]].concat());
     fs::create_dir(at("parts")).expect("writable");
     let parts =
@@ -62,7 +62,7 @@ fn shards_of_a_simulation_are_put_together() {
     let hash = |text: &str| serde_json::from_str::<Value>(text).expect("an object")["state_hash"].clone();
     assert_eq!(hash(&longer), hash(&unbroken), "resumed");
 
-    run(&there, &[&tracked[..], &["--seed", "5", "--shard", "3/3", "--report", "parts/fall.json"]].concat());
+    run(&there, &[&words[..], &["--seed", "5", "--shard", "3/3", "--report", "parts/fall.json"]].concat());
     assert_refused(
         &there,
         &["merge", "parts"],
@@ -104,7 +104,7 @@ fn stages_of_shards_lie_side_by_side() {
         let samples = text(&format!("fall.shard-{number}-of-3_layers/frames_00000.usda"));
         assert!(samples.contains(&format!("over \"Leaves_{number}\"")), "prims of their own");
         let ids = samples.split("int64[] ids.timeSamples = {\n0: [").nth(1).expect("numbers of leaves");
-        slots += ids.split(']').next().expect("a list").split(',').count();
+        slots += ids.split(']').next().expect("a list").split(',').filter(|id| !id.is_empty()).count();
     }
     assert_eq!(slots, 180, "every leaf is in one of them");
 }
