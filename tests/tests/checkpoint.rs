@@ -208,19 +208,3 @@ fn columns_of_another_length_are_refused() {
         assert!(reason.contains("longer"), "{more} bytes too many: {reason}");
     }
 }
-
-/// Three hundred bytes once took 23 gigabytes of memory before they were refused.
-#[test]
-fn a_scene_of_more_leaves_than_the_bytes_hold_gets_no_memory_for_them() {
-    const MANY: u64 = 1 << 28;
-    let bytes = good();
-    let at = leaf_count_at(bytes);
-    let text = str::from_utf8(&bytes[20..at - 12]).expect("the scene is text");
-    let text = text.replace("count: 40,", &format!("count: {MANY},"));
-    let mut forged = [&bytes[..12], &(text.len() as u64).to_le_bytes(), text.as_bytes()].concat();
-    forged.extend(&bytes[at - 12..at]);
-    forged.extend(MANY.to_le_bytes());
-    forged.extend([0; 4]);
-    let reason = refusal(&resealed(forged));
-    assert!(reason.contains("cut short: 8 bytes of state for a scene of"), "{reason}");
-}

@@ -186,3 +186,25 @@ impl<'a> Reader<'a> {
         Ok(bytes.try_into().expect("take returns as many bytes as asked for"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Source;
+
+    /// Some hundred bytes once took 23 gigabytes of memory before they were refused.
+    #[test]
+    fn a_scene_of_more_leaves_than_the_bytes_hold_gets_no_memory_for_them() {
+        let scene =
+            Scene { sources: vec![Source { count: 1 << 28, ..Source::default() }], ..Scene::default() };
+        let text = scene.to_ron();
+        let mut bytes =
+            [MAGIC, &VERSION.to_le_bytes()[..], &(text.len() as u64).to_le_bytes(), text.as_bytes()].concat();
+        // Step and wind travel, and the number of leaves.
+        bytes.extend([0; 12]);
+        bytes.extend((1u64 << 28).to_le_bytes());
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        let error = World::from_checkpoint(&bytes, "a.windfall").expect_err("no leaves follow").to_string();
+        assert!(error.contains("cut short: 8 bytes of state for a scene of"), "{error}");
+    }
+}

@@ -16,6 +16,8 @@ pub const MAX_BRANCH_DEPTH: usize = 256;
 const SHORTEST: f64 = 1e-9;
 /// Longest segment, most leaves, fruit and pipes in a grammar's own unit: beyond this sums would lose their small parts.
 const LARGEST: f64 = 1e6;
+/// Farthest that axes may be from unit vectors at a right angle.
+const MOST_OFF: f64 = 1e-9;
 
 /// A segment of the full-grown tree, in the grammar's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,14 +58,26 @@ impl Turtle {
         let up = self.up();
         self.heading = rotated(self.heading, up, radians);
         self.left = rotated(self.left, up, radians);
+        self.square();
     }
 
     fn pitch(&mut self, radians: f64) {
         self.heading = rotated(self.heading, self.left, radians);
+        self.square();
     }
 
     fn roll(&mut self, radians: f64) {
         self.left = rotated(self.left, self.heading, radians);
+        self.square();
+    }
+
+    /// Sets the axes right once rounding has put them off: each turns about the other, and the error would grow without end.
+    fn square(&mut self) {
+        let lengths = [self.heading, self.left].map(|axis| (axis.length_squared() - 1.0).abs());
+        if lengths[0].max(lengths[1]).max(self.heading.dot(self.left).abs()) > MOST_OFF {
+            self.heading = self.heading.normalize();
+            self.left = self.left.reject_from_normalized(self.heading).normalize();
+        }
     }
 
     /// Rolls until left and right are level; a turtle that heads straight up or down is level anyhow.

@@ -131,7 +131,8 @@ fn a_picture_with_an_enormous_profile_takes_little_memory() {
     let info = allocation_counter::measure(|| {
         picture(folder.path(), "leaf.png", 16).expect("the picture itself is good");
     });
-    assert!(info.bytes_max < 2 * DECODER_BYTES, "{} bytes at once", info.bytes_max);
+    // What is unpacked moves as it grows.
+    assert!(info.bytes_max < 3 * DECODER_BYTES, "{} bytes at once", info.bytes_max);
 }
 
 #[test]

@@ -125,3 +125,14 @@ fn what_no_tree_can_be_is_an_error() {
         assert!(source.to_string().starts_with(expected), "{text}\nfound    {source}\nexpected {expected}");
     }
 }
+
+/// Found by fuzzing: errors of rounding grew from turn to turn, and after some hundred of them there was no heading.
+#[test]
+fn hundreds_of_turns_on_end_lead_round_and_round() {
+    for (turn, count) in [("+(10)", 36), ("&(20)", 18), ("+(90) &(90)", 3)] {
+        for rounds in [1, 20, 200] {
+            let direction = last_direction(&format!("{turn} ").repeat(count * rounds));
+            assert!(direction.distance(Vec3::Y) < 1e-5, "{turn}, {rounds} rounds: {direction}");
+        }
+    }
+}

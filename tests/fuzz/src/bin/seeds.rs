@@ -170,7 +170,7 @@ fn trees(all: &Path, root: &Path) {
     files.add(&text);
     files.add(to_glb(&skeleton, &bark, &GltfLook::default()));
     let extra = "matrix rotation scale translation sparse normalized byteStride children skeleton inverseBindMatrices extras MASK BLEND";
-    files.words(&[&text.split("base64").next().unwrap_or_default().to_owned(), extra]);
+    files.words(&[text.split("base64").next().unwrap_or_default(), extra]);
 }
 
 fn tables(all: &Path, root: &Path) {
