@@ -200,7 +200,8 @@ mod tests {
         let text = scene.to_ron();
         let mut bytes =
             [MAGIC, &VERSION.to_le_bytes()[..], &(text.len() as u64).to_le_bytes(), text.as_bytes()].concat();
-        // Step and wind travel, and the number of leaves.
+        // Shard, step and wind travel, and the number of leaves.
+        bytes.extend([1, 0, 0, 0, 1, 0, 0, 0]);
         bytes.extend([0; 12]);
         bytes.extend((1u64 << 28).to_le_bytes());
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
