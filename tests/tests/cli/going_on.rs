@@ -14,7 +14,9 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 use tempfile::TempDir;
 
-use crate::common_cli::{assert_refused, command, contents, file, folder, interrupted, windfall};
+use crate::common_cli::{
+    assert_refused, assert_same, command, contents, file, folder, interrupted, windfall,
+};
 
 /// A few leaves of which some lie, and sparks; a lens that adapts and a shutter that stays open.
 const SCENE: &str = r#"(
@@ -86,17 +88,7 @@ fn assert_survives_kills(arguments: &[&str], finished: impl Fn(&Path) -> usize) 
     let took = began.elapsed();
     let killed = scene();
     run_with_kills(&killed, arguments, took, finished);
-    let [whole, killed] = [&whole, &killed].map(|folder| {
-        let mut all = contents(folder.path());
-        all.iter_mut().for_each(|(path, _)| *path = path.strip_prefix(folder).expect("in it").to_owned());
-        all
-    });
-    let names =
-        |all: &[(std::path::PathBuf, Vec<u8>)]| all.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&killed), names(&whole), "{arguments:?}: the same files");
-    for ((path, a), (_, b)) in killed.iter().zip(&whole) {
-        assert!(a == b, "{arguments:?}: {} is that of a run that went through", path.display());
-    }
+    assert_same(&whole, &killed, &format!("{arguments:?}"));
 }
 
 #[test]

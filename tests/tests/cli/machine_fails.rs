@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use crate::common_cli::{Outcome, command, contents, file, folder, windfall};
+use crate::common_cli::{Outcome, assert_same, command, file, folder, windfall};
 
 /// A few leaves of which some lie, and sparks; a lens that adapts and a shutter that stays open.
 const SCENE: &str = r#"(
@@ -50,24 +50,6 @@ fn with_loss(there: &TempDir, arguments: &[&str], step: u32) -> Outcome {
     let mut command = command(there, arguments);
     command.env(LOSS, step.to_string());
     outcome(command)
-}
-
-/// Paths and bytes of all that a run has left, seen from its folder.
-fn left(there: &TempDir) -> Vec<(std::path::PathBuf, Vec<u8>)> {
-    let mut all = contents(there.path());
-    all.iter_mut().for_each(|(path, _)| *path = path.strip_prefix(there).expect("in it").to_owned());
-    all
-}
-
-/// Asserts that two folders hold the same files with the same bytes.
-fn assert_same(one: &TempDir, other: &TempDir, what: &str) {
-    let [one, other] = [one, other].map(left);
-    let names =
-        |all: &[(std::path::PathBuf, Vec<u8>)]| all.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&one), names(&other), "{what}: the same files");
-    for ((path, a), (_, b)) in one.iter().zip(&other) {
-        assert!(a == b, "{what}: {} has the same bytes", path.display());
-    }
 }
 
 #[test]

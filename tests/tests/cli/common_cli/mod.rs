@@ -195,3 +195,20 @@ fn build() -> PathBuf {
         .find_map(|message| message["executable"].as_str().map(PathBuf::from))
         .expect("cargo prints where the program is")
 }
+
+/// Paths and bytes of all that a run has left, seen from its folder.
+pub(crate) fn left(there: &TempDir) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut all = contents(there.path());
+    all.iter_mut().for_each(|(path, _)| *path = path.strip_prefix(there).expect("in it").to_owned());
+    all
+}
+
+/// Asserts that two folders hold the same files with the same bytes.
+pub(crate) fn assert_same(one: &TempDir, other: &TempDir, what: &str) {
+    let [one, other] = [one, other].map(left);
+    let names = |all: &[(PathBuf, Vec<u8>)]| all.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&one), names(&other), "{what}: the same files");
+    for ((path, a), (_, b)) in one.iter().zip(&other) {
+        assert!(a == b, "{what}: {} has the same bytes", path.display());
+    }
+}
