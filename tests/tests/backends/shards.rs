@@ -139,7 +139,7 @@ fn what_leaves_share_is_not_divided() {
     let refused =
         |scene: &Scene| World::build_shard(scene, "it", half).map(|_| ()).expect_err("shared").to_string();
     let mut snow = Scene::preset("snowstorm").expect("a preset");
-    snow.ground.litter = None;
+    (snow.ground.litter, snow.objects) = (None, Vec::new());
     let litter = Scene::preset("blower").expect("a preset");
     for (scene, field) in [(litter, "it: ground.litter is"), (snow, "it: weather is")] {
         let error = refused(&scene);

@@ -40,7 +40,10 @@ fn flushing_library(folder: &TempDir) -> PathBuf {
 
 /// Hash of a scene after so many steps on the CPU, with a library loaded before.
 fn hash_after(folder: &TempDir, scene: &str, steps: &str, library: Option<&PathBuf>) -> String {
-    let mut command = command(folder, &["simulate", scene, "--backend", "cpu", "--steps", steps, "--json"]);
+    let mut command = command(
+        folder,
+        &["simulate", scene, "--allow-outside", "--backend", "cpu", "--steps", steps, "--json"],
+    );
     command.envs(library.map(|library| ("LD_PRELOAD", library)));
     let output = command.output().expect("the program starts");
     assert!(output.status.success(), "{scene}: {output:?}");
