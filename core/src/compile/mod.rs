@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compiles a scene into the blocks and tables that kernels read.
+//! Compiles a scene into the blocks and tables that kernels read. Long, since compiling and retuning go through the same parts in the same order.
 
 mod births;
 mod block;
