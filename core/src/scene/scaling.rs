@@ -194,6 +194,6 @@ mod tests {
         let scene = Scene::preset("autumn-park").expect("a preset");
         let error = scene.with_leaf_count("autumn-park", 1).expect_err("more sources").to_string();
         assert!(error.contains("autumn-park") && error.contains("leaf count is 1"), "{error}");
-        assert!(error.contains(&format!("{} to 268435456", scene.sources.len())), "{error}");
+        assert!(error.contains(&format!("{} to 1073741824", scene.sources.len())), "{error}");
     }
 }

@@ -65,7 +65,7 @@ pub struct Share {
 pub struct Source {
     /// Volume that leaves start from, nowhere below the ground.
     pub shape: SourceShape,
-    /// Number of leaf slots, 1 to 268435456; the same holds for the sum over all sources.
+    /// Number of leaf slots, 1 to 1073741824; the same holds for the sum over all sources.
     pub count: u32,
     /// Times of release.
     pub release: Release,

@@ -71,6 +71,7 @@ const SOURCES: &[Case] = &[
             s.sources = vec![s.sources[0].clone(); 2];
             s.trees.clear();
             s.sources[0].count = MAX_LEAVES - s.sources[1].count;
+            s.sources[0].release = Release::Rate { per_s: 1e8, from_s: 0.0 };
         },
         None,
     ),

@@ -231,8 +231,9 @@ const COUNTS: &[Row<u32>] = &[
     ("ground.terrain.smoothing", 0, 8, |s, v| hills(s).smoothing = v),
     ("species[0].motion.rose_swings", 2, 12, |s, v| s.species[0].motion.rose_swings = Some(v)),
     ("species[0].transitions[0]", 1, 65_535, |s, v| s.species[0].transitions.0[0] = [v, 0, 0, 0, 0, 0]),
-    ("sources[0].count", 1, 1 << 28, |s, v| {
+    ("sources[0].count", 1, 1 << 30, |s, v| {
         s.trees.clear();
+        s.sources[0].release = Release::Burst { at_s: 0.0 };
         s.sources[0].count = v;
     }),
     ("sources[0].species[0].weight", 1, 1000, |s, v| s.sources[0].species[0].weight = v),
@@ -261,7 +262,7 @@ fn ranges_end_where_they_should() {
         for inside in [low, high] {
             assert_eq!(field_with(row, inside), None, "{path}: {inside} is allowed");
         }
-        for outside in [low - 1, high + 1, u32::MAX] {
+        for outside in [low.wrapping_sub(1), high + 1, u32::MAX] {
             assert_eq!(field_with(row, outside).as_deref(), Some(path), "{path}: {outside} is not allowed");
         }
     }
