@@ -59,7 +59,7 @@ pub struct Arguments {
     /// Write what --json prints to this file as well, with all that the outcome depends on.
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
-    /// Begin anew where an unfinished run of other options or of another scene lies beside the checkpoint or the tracks. Without this an
+    /// Begin anew where an unfinished run of other options or of another scene lies beside the checkpoint, the tracks or the report. Without this an
     /// unfinished run of the same ones, whose state is kept every few seconds, is gone on with.
     #[arg(long)]
     restart: bool,
@@ -79,11 +79,12 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let checkpoint = arguments.checkpoint.as_ref().map(create).transpose()?;
     let report_file = arguments.report.as_ref().map(create).transpose()?;
     let tracks_at = arguments.tracks.destination(&arguments.shard)?;
-    if let (Some(tracks), Some(checkpoint)) = (&tracks_at, &checkpoint)
-        && tracks == checkpoint.destination()
-    {
-        bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
-    }
+    let destination = |file: &Option<OutputFile>| file.as_ref().map(|file| file.destination().to_owned());
+    check_apart([
+        ("--tracks", tracks_at.clone()),
+        ("--checkpoint", destination(&checkpoint)),
+        ("--report", destination(&report_file)),
+    ])?;
     let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
         (Some(scene), _) => World::build_shard(scene, arguments.scene.name(), arguments.shard.part())?,
@@ -165,6 +166,19 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     } else {
         terminal::print(&report.to_text(&stats))
     }
+}
+
+/// Refuses options of which two name the same file.
+fn check_apart(mut outputs: [(&str, Option<PathBuf>); 3]) -> anyhow::Result<()> {
+    outputs.sort_by(|(_, a), (_, b)| a.cmp(b));
+    for [(one, path), (other, same)] in outputs.array_windows() {
+        if let Some(path) = path
+            && Some(path) == same.as_ref()
+        {
+            bail!("{}: named by {one} and {other}; allowed: once", path.display());
+        }
+    }
+    Ok(())
 }
 
 /// Everything that the result depends on.

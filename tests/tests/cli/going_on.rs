@@ -14,25 +14,7 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 use tempfile::TempDir;
 
-use crate::common_cli::{
-    assert_refused, assert_same, command, contents, file, folder, interrupted, windfall,
-};
-
-/// A few leaves of which some lie, and sparks; a lens that adapts and a shutter that stays open.
-const SCENE: &str = r#"(
-    wind: (speed: Beaufort(4)),
-    species: [(name: "plate", shape: Plate, size_m: 0.06)],
-    sources: [(shape: Sphere(center_m: (0.0, 1.5, 0.0), radius_m: 1.0), count: 300,
-               release: Rate(per_s: 40.0, from_s: -3.0), recycle_after_s: 0.6)],
-    particles: [(name: "sparks", count: 500, release: Rate(per_s: 60.0, from_s: 0.0))],
-    view: (trail_s: 0.4, lens: (exposure: Auto(adaptation_s: 0.25), shutter_s: 0.02)),
-)"#;
-
-fn scene() -> TempDir {
-    let there = folder();
-    file(&there, "scene.ron", SCENE);
-    there
-}
+use crate::common_cli::{assert_refused, assert_same, command, contents, interrupted, restless, windfall};
 
 /// Number of files below a folder whose names begin with this. The program may be at work there: files come and go.
 fn count(folder: &Path, beginning: &str) -> usize {
@@ -82,11 +64,11 @@ fn outputs<'a>(arguments: &'a [&str]) -> impl Iterator<Item = &'a str> {
 
 /// Asserts that work that is killed comes to what it comes to otherwise, and that nothing else is left.
 fn assert_survives_kills(arguments: &[&str], finished: impl Fn(&Path) -> usize) {
-    let whole = scene();
+    let whole = restless();
     let began = Instant::now();
     windfall(&whole, arguments).text();
     let took = began.elapsed();
-    let killed = scene();
+    let killed = restless();
     run_with_kills(&killed, arguments, took, finished);
     assert_same(&whole, &killed, &format!("{arguments:?}"));
 }
@@ -127,7 +109,7 @@ fn studies_survive_kills() {
 
 #[test]
 fn an_interrupt_keeps_what_is_finished_and_the_same_command_goes_on() {
-    let there = scene();
+    let there = restless();
     let render = |out| {
         let options = ["--backend", "cpu", "--frames", "90", "--size", "96x54", "--out", out];
         [&["render", "scene.ron"], &options[..]].concat()
@@ -177,7 +159,7 @@ fn an_interrupt_keeps_what_is_finished_and_the_same_command_goes_on() {
 
 #[test]
 fn two_runs_do_not_write_the_same_clip_at_once() {
-    let there = scene();
+    let there = restless();
     let render =
         ["render", "scene.ron", "--backend", "cpu", "--frames", "2000", "--size", "96x54", "--out", "frames"];
     let mut first =
@@ -195,7 +177,7 @@ fn two_runs_do_not_write_the_same_clip_at_once() {
 
 #[test]
 fn parts_of_a_clip_are_those_of_the_whole() {
-    let there = scene();
+    let there = restless();
     let render = |frames: &str, out: &str| {
         let options =
             ["--backend", "cpu", "--frames", frames, "--size", "128x72", "--fps", "30", "--out", out];

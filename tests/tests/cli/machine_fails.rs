@@ -11,27 +11,12 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use crate::common_cli::{Outcome, assert_same, command, file, folder, windfall};
+use crate::common_cli::{Outcome, assert_same, command, file, folder, restless, windfall};
 
-/// A few leaves of which some lie, and sparks; a lens that adapts and a shutter that stays open.
-const SCENE: &str = r#"(
-    wind: (speed: Beaufort(4)),
-    species: [(name: "plate", shape: Plate, size_m: 0.06)],
-    sources: [(shape: Sphere(center_m: (0.0, 1.5, 0.0), radius_m: 1.0), count: 300,
-               release: Rate(per_s: 40.0, from_s: -3.0), recycle_after_s: 0.6)],
-    particles: [(name: "sparks", count: 500, release: Rate(per_s: 60.0, from_s: 0.0))],
-    view: (trail_s: 0.4, lens: (exposure: Auto(adaptation_s: 0.25), shutter_s: 0.02)),
-)"#;
 /// Environment variable with the step from which on the graphics device is lost.
 const LOSS: &str = "WINDFALL_LOSE_DEVICE_AT";
 /// Seconds after which the program is taken to have begun work that it ought to have refused.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-fn scene() -> TempDir {
-    let there = folder();
-    file(&there, "scene.ron", SCENE);
-    there
-}
 
 /// Outcome of a command that ends by itself.
 fn outcome(mut command: Command) -> Outcome {
@@ -54,7 +39,7 @@ fn with_loss(there: &TempDir, arguments: &[&str], step: u32) -> Outcome {
 
 #[test]
 fn a_simulation_outlives_its_device() {
-    let (whole, broken) = (scene(), scene());
+    let (whole, broken) = (restless(), restless());
     let options = ["--backend", "wgpu", "--checkpoint", "state", "--tracks", "t.csv", "--track-every", "20"];
     let arguments = [&["simulate", "scene.ron", "--steps", "90", "--json"], &options[..]].concat();
     let without = windfall(&whole, &arguments);
@@ -73,7 +58,7 @@ fn a_simulation_outlives_its_device() {
 
 #[test]
 fn an_export_outlives_its_device() {
-    let (whole, broken) = (scene(), scene());
+    let (whole, broken) = (restless(), restless());
     let options = ["--backend", "wgpu", "--frames", "0..20", "--fps", "20", "--out", "a.csv"];
     let arguments = [&["export", "scene.ron"], &options[..]].concat();
     windfall(&whole, &arguments).text();
@@ -86,7 +71,7 @@ fn an_export_outlives_its_device() {
 #[test]
 fn a_clip_outlives_the_device_that_draws_and_simulates() {
     for (backend, out) in [("wgpu", "frames"), ("cpu", "a.gif"), ("wgpu", "last.png")] {
-        let (whole, broken) = (scene(), scene());
+        let (whole, broken) = (restless(), restless());
         let options = ["--backend", backend, "--frames", "14", "--size", "96x54", "--out", out];
         let arguments = [&["render", "scene.ron"], &options[..]].concat();
         windfall(&whole, &arguments).text();
@@ -130,7 +115,7 @@ fn a_full_disk_is_an_error_and_what_is_finished_is_kept() {
     ];
     for (arguments, kib, keeps) in [(&clip[..], 24, true), (&table, 64, false), (&state, 64, false)] {
         let out = arguments[arguments.len() - 1];
-        let (whole, full) = (scene(), scene());
+        let (whole, full) = (restless(), restless());
         let failed = on_a_full_disk(&full, arguments, kib);
         assert_eq!(failed.code, Some(2), "{out}: {failed:?}");
         let last = failed.stderr.lines().last().unwrap_or_default();
@@ -163,7 +148,7 @@ fn read_only(there: &TempDir) -> String {
 
 #[test]
 fn a_folder_that_cannot_be_written_to_is_found_before_anything_long_begins() {
-    let there = scene();
+    let there = restless();
     let locked = read_only(&there);
     let out = |name: &str| format!("{locked}/{name}");
     let long = ["--frames", "1000000", "--size", "96x54", "--out"];
@@ -200,7 +185,7 @@ fn a_folder_that_cannot_be_written_to_is_found_before_anything_long_begins() {
 
 #[test]
 fn a_reader_that_goes_away_ends_no_long_work() {
-    let there = scene();
+    let there = restless();
     let arguments = ["render", "scene.ron", "--frames", "30", "--size", "96x54", "--out", "a.gif"];
     let mut child = command(&there, &arguments)
         .stdout(Stdio::piped())
@@ -263,7 +248,7 @@ fn long_work() -> [(Vec<&'static str>, &'static str); 3] {
 #[test]
 fn a_request_to_terminate_keeps_what_is_done_and_the_same_command_goes_on() {
     for (arguments, ending) in long_work() {
-        let (whole, ended) = (scene(), scene());
+        let (whole, ended) = (restless(), restless());
         let mut child = command(&ended, &arguments);
         let mut child =
             child.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
@@ -298,7 +283,7 @@ fn a_request_to_terminate_keeps_what_is_done_and_the_same_command_goes_on() {
 fn suspended_work_goes_on_to_the_same_bytes() {
     let seconds = std::env::var("WINDFALL_SUSPEND_S").map_or(3, |seconds| seconds.parse().expect("a number"));
     for (arguments, ending) in long_work() {
-        let (whole, suspended) = (scene(), scene());
+        let (whole, suspended) = (restless(), restless());
         let mut child = command(&suspended, &arguments);
         let mut child =
             child.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");

@@ -144,5 +144,10 @@ fn what_cannot_be_divided_is_refused() {
         &["export", "storm", "--frames", "0..1", "--out", "a.glb", "--shard", "1/2"],
         &["usd and csv"],
     );
+    assert_refused(
+        &there,
+        &["simulate", "storm", "--report", "a.json", "--tracks", "a.json"],
+        &["a.json: named by --tracks and --report"],
+    );
     assert_refused(&there, &["merge", "."], &["holds no files of shards"]);
 }

@@ -212,3 +212,20 @@ pub(crate) fn assert_same(one: &TempDir, other: &TempDir, what: &str) {
         assert!(a == b, "{what}: {} has the same bytes", path.display());
     }
 }
+
+/// A few leaves of which some lie, and sparks; a lens that adapts and a shutter that stays open.
+pub(crate) const RESTLESS: &str = r#"(
+    wind: (speed: Beaufort(4)),
+    species: [(name: "plate", shape: Plate, size_m: 0.06)],
+    sources: [(shape: Sphere(center_m: (0.0, 1.5, 0.0), radius_m: 1.0), count: 300,
+               release: Rate(per_s: 40.0, from_s: -3.0), recycle_after_s: 0.6)],
+    particles: [(name: "sparks", count: 500, release: Rate(per_s: 60.0, from_s: 0.0))],
+    view: (trail_s: 0.4, lens: (exposure: Auto(adaptation_s: 0.25), shutter_s: 0.02)),
+)"#;
+
+/// A folder with `scene.ron`, in which much goes on.
+pub(crate) fn restless() -> TempDir {
+    let there = folder();
+    file(&there, "scene.ron", RESTLESS);
+    there
+}
