@@ -13,7 +13,7 @@ use windfall_core::Shard;
 use windfall_cpu::CpuOptions;
 
 use crate::leaves::load_scene;
-use crate::plot::study::draw;
+use crate::plot::study::Study;
 use crate::run::backend::{BackendArguments, Device};
 use crate::run::cancel::Cancel;
 use crate::run::memory::check_memory;
@@ -29,10 +29,10 @@ use crate::study::{Point, StudyFolder, Summary, Variation, points_of};
 ///
 /// A drop is a leaf of one of the scene's sources, let go once: at a steady rate in the time that --over says, in place
 /// of the scene's own releases and without coming back. Leaves of trees are not dropped; `windfall tree shedding` studies
-/// them. A drop has landed when it touches the ground. Means are over those that land in time.
+/// them. A drop has landed when it touches the ground. Means and quantiles are over those that land in time.
 ///
 /// DIR gets summary.csv with a row for each point, overview.png and landings.png, and for each point a folder with its
-/// landings.csv, landings.png and tracks.csv. Finished points are kept: run again, an interrupted study goes on.
+/// landings.csv, landings.png and tracks.csv; with --report also report.html, one page with all of it. Finished points are kept: run again, an interrupted study goes on.
 #[derive(Clone, Debug, Args)]
 #[command(mut_arg("backend", |arg| arg.help("Where to simulate [default: cpu]")))]
 #[command(mut_arg("threads", |arg| arg.help("Points that are worked on at once [default: one for each core]; implies --backend cpu")))]
@@ -66,6 +66,9 @@ pub struct Arguments {
     /// Seed of everything random, in place of the scene's.
     #[arg(long, value_name = "N", value_parser = whole::<u64, 0, { u64::MAX }>)]
     seed: Option<u64>,
+    /// Write report.html too: one page with pictures, table and scene that needs no other file.
+    #[arg(long, conflicts_with = "share")]
+    report: bool,
     #[command(flatten)]
     backend: BackendArguments,
     /// Folder to write to: new, empty, or of this same study.
@@ -104,7 +107,20 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let all: Vec<_> = (0..points.len()).collect();
     let summaries = work(&folder, &points, &all, &device, &options, &cancel)?;
     folder.write_summary(&arguments.vary, &points, &summaries)?;
-    draw(&folder, name, &scene, &arguments.vary, &points, &summaries, &cancel)?;
+    let study = Study {
+        folder: &folder,
+        name,
+        scene: &scene,
+        variations: &arguments.vary,
+        options: &options,
+        contract,
+        points: &points,
+        summaries: &summaries,
+    };
+    study.draw(&cancel)?;
+    if arguments.report {
+        study.write_page()?;
+    }
     let aloft: u64 = summaries.iter().map(|summary| u64::from(summary.drops - summary.landed)).sum();
     if aloft > 0 {
         let drops: u64 = summaries.iter().map(|summary| u64::from(summary.drops)).sum();

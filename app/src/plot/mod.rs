@@ -4,6 +4,7 @@
 
 mod boundaries;
 mod colors;
+pub(crate) mod comparison;
 pub(crate) mod drop_paths;
 pub(crate) mod fence_drift;
 pub(crate) mod litter_onset;

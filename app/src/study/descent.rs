@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::regime::{PerRegime, Regime};
 use super::sample::Sample;
+use super::statistics::{MIDDLE, quantile};
 
 /// Way down in metres before a drop of a small piece counts.
 pub(crate) const SETTLE_M: f64 = 0.6;
@@ -194,8 +195,8 @@ impl DescentSummary {
         Some(Self {
             mean_descent_m_s: mean_descent,
             sd_between_drops: (squares / others).sqrt(),
-            p10_m_s: quantile(&descents, 0.1)?,
-            p90_m_s: quantile(&descents, 0.9)?,
+            p10_m_s: quantile(&descents, MIDDLE[0])?,
+            p90_m_s: quantile(&descents, MIDDLE[1])?,
             turns_per_s: mean(|drop| drop.turns_per_s),
             rms_vz_m_s: mean(|drop| drop.rms_vz_m_s),
             horizontal_speed_m_s: mean(|drop| drop.horizontal_speed_m_s),
@@ -203,15 +204,6 @@ impl DescentSummary {
             regimes: PerRegime::from_array(Regime::ALL.map(share)),
         })
     }
-}
-
-/// A quantile of numbers in rising order, straight between neighbours; nothing of nothing.
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let place = share * sorted.len().saturating_sub(1) as f64;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-    let below = place.floor() as usize;
-    let (low, high) = (*sorted.get(below)?, *sorted.get(below + 1).or(sorted.last())?);
-    Some(low + (high - low) * place.fract())
 }
 
 #[cfg(test)]

@@ -192,6 +192,7 @@ fn identity(
     Ok(Identity::new(json!({
         "version": env!("CARGO_PKG_VERSION"),
         "contract": contract.to_string(),
+        "columns": COLUMNS.as_slice(),
         "drops": options.drops,
         "over_s": options.over_s,
         "seconds": options.seconds,

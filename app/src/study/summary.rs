@@ -6,22 +6,39 @@ use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::landing::{Landing, MOTION_COUNT};
+use super::statistics::Distribution;
 
-/// Names of the columns behind the point's number and settings. A mean and a standard deviation of drops that landed for
-/// each quantity; then shares of all time in the air: the motions of synthesised leaves, and the regimes of bodies.
+/// Names of the columns behind the point's number and settings. Mean, standard deviation, the lower end of the middle eight in ten, median
+/// and the upper end, over the drops that landed, of each quantity; then shares of all time in the air: the motions of synthesised leaves,
+/// and the regimes of bodies.
 pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     "drops",
     "landed",
     "aloft_mean_s",
     "aloft_std_s",
+    "aloft_p10_s",
+    "aloft_median_s",
+    "aloft_p90_s",
     "descent_mean_m_s",
     "descent_std_m_s",
+    "descent_p10_m_s",
+    "descent_median_m_s",
+    "descent_p90_m_s",
     "drift_mean_m",
     "drift_std_m",
+    "drift_p10_m",
+    "drift_median_m",
+    "drift_p90_m",
     "along_mean_m",
     "along_std_m",
+    "along_p10_m",
+    "along_median_m",
+    "along_p90_m",
     "across_mean_m",
     "across_std_m",
+    "across_p10_m",
+    "across_median_m",
+    "across_p90_m",
     Primitive::SteadyDescent.code(),
     Primitive::PeriodicTumbling.code(),
     Primitive::TransitionalChaotic.code(),
@@ -36,10 +53,10 @@ pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     REGIME_NAMES[4],
     REGIME_NAMES[5],
 ];
-/// Quantities with mean and standard deviation.
-pub(super) const QUANTITIES: usize = 5;
+/// Quantities that have a distribution.
+pub(crate) const QUANTITIES: usize = 5;
 /// Numbers behind the counts.
-const NUMBERS: usize = 2 * QUANTITIES + MOTION_COUNT;
+const NUMBERS: usize = Distribution::NUMBERS * QUANTITIES + MOTION_COUNT;
 
 /// Numbers of a point. A number that there is none of (nothing landed, one drop has no spread) is NaN.
 #[derive(Clone, Copy, Debug)]
@@ -48,9 +65,8 @@ pub(crate) struct Summary {
     pub drops: u32,
     /// Those that landed in time.
     pub landed: u32,
-    /// Mean and standard deviation of time aloft in s, mean descent in m/s, horizontal distance in m, and how far along
-    /// and across the wind in m.
-    pub quantities: [(f64, f64); QUANTITIES],
+    /// Time aloft in s, mean descent in m/s, horizontal distance in m, and how far along and across the wind in m.
+    pub quantities: [Distribution; QUANTITIES],
     /// Shares of the time in the air, as in [`COLUMNS`].
     pub motions: [f64; MOTION_COUNT],
 }
@@ -60,8 +76,7 @@ impl Summary {
     pub(crate) fn of(landings: &[Landing]) -> Self {
         let landed: Vec<&Landing> = landings.iter().filter(|landing| landing.is_landed()).collect();
         let spread = |value: &dyn Fn(&Landing) -> Option<f64>| {
-            let values: Vec<f64> = landed.iter().filter_map(|landing| value(landing)).collect();
-            mean_and_deviation(&values)
+            Distribution::of(landed.iter().filter_map(|landing| value(landing)).collect())
         };
         let mut steps = [0u64; MOTION_COUNT];
         for landing in landings {
@@ -87,8 +102,7 @@ impl Summary {
 
     /// Fields in the order of [`COLUMNS`]; what is NaN is empty.
     pub(super) fn fields(&self) -> impl Iterator<Item = String> {
-        let pairs = self.quantities.iter().flat_map(|&(mean, deviation)| [mean, deviation]);
-        let numbers = pairs.chain(self.motions);
+        let numbers = self.quantities.iter().flat_map(|quantity| quantity.to_array()).chain(self.motions);
         let number = |number: f64| if number.is_nan() { String::new() } else { number.to_string() };
         [self.drops, self.landed].into_iter().map(|count| count.to_string()).chain(numbers.map(number))
     }
@@ -99,27 +113,15 @@ impl Summary {
         let [drops, landed, numbers @ ..] = fields.as_slice() else { return None };
         let number = |text: &&str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
         let numbers: Vec<f64> = numbers.iter().map(number).collect::<Option<_>>()?;
-        let (pairs, motions) = numbers.split_at_checked(2 * QUANTITIES)?;
-        let mut quantities = [(0.0, 0.0); QUANTITIES];
-        for (quantity, pair) in quantities.iter_mut().zip(pairs.chunks_exact(2)) {
-            *quantity = (pair[0], pair[1]);
-        }
+        let (distributions, motions) = numbers.split_at_checked(Distribution::NUMBERS * QUANTITIES)?;
+        let (distributions, _) = distributions.as_chunks();
         Some(Self {
             drops: drops.parse().ok()?,
             landed: landed.parse().ok()?,
-            quantities,
+            quantities: std::array::from_fn(|index| Distribution::from_array(distributions[index])),
             motions: motions.try_into().ok()?,
         })
     }
-}
-
-/// Mean and sample standard deviation.
-fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-    let deviation = if values.len() > 1 { (squares / (count - 1.0)).sqrt() } else { f64::NAN };
-    (mean, deviation)
 }
 
 #[cfg(test)]
@@ -146,10 +148,11 @@ mod tests {
             [(3.0, 2.0 * half), (2.25, 1.5 * half), (4.0, 2.0 * half), (4.0, 2.0 * half), (0.0, 0.0)];
         for (found, expected) in summary.quantities.iter().zip(expected) {
             assert!(
-                (found.0 - expected.0).abs() < 1e-12 && (found.1 - expected.1).abs() < 1e-12,
+                (found.mean - expected.0).abs() < 1e-12 && (found.deviation - expected.1).abs() < 1e-12,
                 "{summary:?}"
             );
         }
+        assert_eq!(summary.quantities[0].median, 3.0, "half way between two");
         assert_eq!((summary.motions[1], summary.motions[7]), (0.75, 0.25), "of time in the air");
     }
 

@@ -243,3 +243,91 @@ fn pictures_are_drawn() {
     }
     assert_eq!(contents(there.path()).len(), 1, "nothing but the picture is left");
 }
+
+/// Drops of two pieces as `windfall flight` found them, so that the comparison must find the same again.
+#[test]
+fn a_comparison_sets_both_side_by_side() {
+    let there = folder();
+    let own = json(&[&DISC[..], &["--release", "edge-on", "--drops", "40"]].concat());
+    let (descent, turns) = (number(&own, "mean_descent_m_s"), number(&own, "turns_per_s"));
+    let table = format!(
+        "# by hand\nshape,fluid,size_m,areal_density_kg_m2,release,mean_descent_m_s,projected_area_peaks_per_s,drift_per_drop_height\n\
+         circle,air,0.035,0.07,edge-on,{descent},{},9\nplate,water,0.1,,tumbling,1,1,1\nkite.csv,air,0.09,0.08,random,,,0.01\n",
+        2.0 * turns
+    );
+    file(&there, "drops.csv", &table);
+    file(&there, "kite.csv", "0,0\n30,50\n0,90\n-30,50\n");
+    let compare = ["flight", "compare", "drops.csv", "--drops", "40"];
+    let both = [&compare[..], &["--json", "--out", "plot.png", "--table", "both.csv"]].concat();
+    let report = windfall(&there, &both).json();
+    assert_eq!((&report["figures"], &report["within_a_quarter"]), (&4.into(), &2.into()), "{report}");
+    let rows = report["rows"].as_array().expect("a list");
+    assert_eq!(
+        rows.iter().map(|row| row["line"].as_u64()).collect::<Vec<_>>(),
+        [Some(3), Some(5)],
+        "but the one in water"
+    );
+    for key in ["mean_descent_m_s", "turns_per_s", "rms_vz_within_drop_m_s", "drift_per_drop_height"] {
+        assert_eq!(rows[0]["simulated"][key], own[key], "{key} as `windfall flight` has it");
+    }
+    assert_eq!(rows[0]["measured"]["turns_per_s"].as_f64(), Some(turns), "half the peaks");
+    assert!(rows[1]["measured"]["turns_per_s"].is_null(), "not measured: {report}");
+    let text = windfall(&there, &compare).text();
+    assert!(
+        text.contains("2 of 4 figures within 25 %: descent 1 of 1, turns 1 of 1, drift 0 of 2"),
+        "{text}"
+    );
+    let plot = image::open(there.path().join("plot.png")).expect("a picture").to_rgb8();
+    assert_eq!(plot.dimensions(), (1800, 1180), "of the plot");
+    let is_orange = |pixel: &&image::Rgb<u8>| pixel.0[0] > 180 && pixel.0[2] < 110;
+    let orange = plot.pixels().filter(is_orange).count();
+    assert!((300..1500).contains(&orange), "three dots and one of the legend: {orange} pixels");
+    let table = fs::read_to_string(there.path().join("both.csv")).expect("a table");
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (head, first) = (lines.next().expect("a head"), lines.next().expect("a row"));
+    let field = |name: &str| first[head.iter().position(|own| *own == name).expect(name)];
+    assert_eq!((field("line"), field("shape"), field("release")), ("3", "disc", "edge-on"), "{table}");
+    assert_eq!(field("measured_mean_descent_m_s"), field("mean_descent_m_s"), "the same numbers");
+    assert_eq!(field("measured_rms_vz_within_drop_m_s"), "", "not measured");
+    assert!(field("tumble").parse::<f64>().expect("a share") > 0.3, "{table}");
+}
+
+#[test]
+fn comparisons_that_cannot_be_made_are_refused() {
+    let there = folder();
+    let head = "shape,size_m,areal_density_kg_m2,release,mean_descent_m_s\n";
+    file(&there, "flat.csv", &format!("{head}disc,0.05,0.07,flat,1\n"));
+    file(&there, "none.csv", head);
+    let refuse = |arguments: &[&str], essentials: &[&str]| {
+        assert_refused(&there, &[&["flight", "compare"], arguments].concat(), essentials);
+    };
+    refuse(&["flat.csv"], &["flat.csv:2: release is 'flat'", "broadside, edge-on, random"]);
+    refuse(&["none.csv"], &["none.csv: no measured drops"]);
+    refuse(&["gone.csv"], &["gone.csv"]);
+    refuse(&["none.csv", "--drops", "0"], &["--drops", "1 to 100000"]);
+    refuse(&["none.csv", "--out", "plot.jpg"], &["--out", ".png"]);
+    assert_eq!(contents(there.path()).len(), 2, "nothing is written");
+}
+
+#[test]
+fn a_species_of_a_scene_falls_as_its_folder_says() {
+    let there = folder();
+    windfall(&there, &["leaf", "make", "birch", "--count", "2", "--size", "64", "--out", "leaves"]).text();
+    let scene = "(species: [(name: \"mine\", flight: Aerodynamic((irregularity: 0.02)), leaves: Some(\"leaves\")), (name: \"other\")])";
+    file(&there, "park.ron", scene);
+    let of = |species: &str, more: &[&str]| {
+        let arguments = ["flight", "--species", species, "--drops", "9", "--json"];
+        windfall(&there, &[&arguments[..], more].concat()).json()
+    };
+    let (own, folder) = (of("mine", &["--scene", "park.ron"]), of("leaves", &[]));
+    assert_eq!(own["size_m"], folder["size_m"], "the mean of the leaves in the folder");
+    assert_eq!(own["areal_density_kg_m2"], folder["areal_density_kg_m2"], "and their mass");
+    assert_ne!(own["sd_between_drops"], folder["sd_between_drops"], "with the scene's own irregularity");
+    let refuse = |species: &str, essentials: &[&str]| {
+        let arguments = ["flight", "--species", species, "--scene", "park.ron"];
+        assert_refused(&there, &arguments, essentials);
+    };
+    refuse("maple", &["--species is 'maple'", "park.ron: mine, other"]);
+    refuse("other", &["--species is 'other'", "Synthesis", "Aerodynamic"]);
+    assert_refused(&there, &["flight", "--scene", "park.ron"], &["--species"]);
+}

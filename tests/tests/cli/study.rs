@@ -172,3 +172,48 @@ fn studies_that_make_no_sense_are_refused() {
     assert_refused(&there, &["study", "small.ron", "--out", "out"], &["--vary <PATH=VALUES>"]);
     assert_refused(&there, &["study", "small.ron", "--vary", "seed=1", "--out", "/proc/x/y"], &["/proc/x/y"]);
 }
+
+/// Texts within the attributes and elements of a page: what stands between two marks, each time.
+fn between<'a>(page: &'a str, from: &str, to: &str) -> Vec<&'a str> {
+    page.split(from).skip(1).map(|rest| rest.split(to).next().expect("a rest")).collect()
+}
+
+#[test]
+fn a_report_is_one_page_with_pictures_and_table() {
+    let there = folder();
+    file(&there, "small.ron", SCENE);
+    study(&there, "plain", &[]);
+    study(&there, "out", &["--report"]);
+    let out = there.path().join("out");
+    let page = text(&out.join("report.html"));
+    assert_eq!(page.matches("http").count() + page.matches("<link").count(), 0, "it needs nothing beside it");
+    let pictures = between(&page, "src=\"data:image/png;base64,", "\"");
+    let files = ["overview.png", "landings.png", "point_0001/landings.png", "point_0004/landings.png"];
+    assert_eq!(pictures.len(), 6, "the two of all points, and one of each");
+    for (index, name) in [0, 1, 2, 5].into_iter().zip(files) {
+        let bytes = fs::read(out.join(name)).expect(name);
+        assert_eq!(pictures[index].len(), bytes.len().div_ceil(3) * 4, "{name} is in it");
+    }
+    let rows = between(&page, "<tr><td>", "</tr>");
+    assert_eq!(rows.len(), 4, "a row for each point");
+    let table = text(&out.join("summary.csv"));
+    let (medians, lows) = (column(&table, "aloft_median_s"), column(&table, "aloft_p10_s"));
+    for (row, (median, low)) in rows.iter().zip(medians.iter().zip(lows)) {
+        let fields = between(row, "<td>", "</td>");
+        assert_eq!(fields[0], "12 of 12", "{row}");
+        let shown: f64 = fields[1].split(' ').next().expect("a field").parse().expect("a number");
+        assert!((shown - median).abs() <= 0.005 + 1e-9 && low <= *median, "{row}: {median}");
+    }
+    assert!(page.contains("half_extent_m"), "the scene is in it");
+    let plain = there.path().join("plain");
+    for (path, bytes) in contents(&plain).into_iter().filter(|(path, _)| path.is_file()) {
+        let name = path.strip_prefix(&plain).expect("inside");
+        assert!(
+            fs::read(out.join(name)).expect("the same files") == bytes,
+            "{} as without it",
+            name.display()
+        );
+    }
+    let shared = ["study", "small.ron", "--vary", "seed=1,2", "--share", "1/2", "--report", "--out", "x"];
+    assert_refused(&there, &shared, &["--report", "--share"]);
+}

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `windfall flight`: a wind tunnel for leaves, and what it shows as pictures.
+//! `windfall flight`: a wind tunnel for leaves, comparisons to measured drops, and pictures.
 
+mod compare;
 mod diagram;
 mod measure;
+mod measured_table;
 mod outline;
 mod piece;
 mod track_file;
@@ -26,9 +28,11 @@ pub struct Arguments {
     measure: measure::Arguments,
 }
 
-/// Pictures instead of numbers.
+/// Comparisons and pictures.
 #[derive(Clone, Debug, Subcommand)]
 enum Figure {
+    /// Drop the pieces of a table of measured drops, and set both side by side.
+    Compare(compare::Arguments),
     /// Draw how discs of many sizes and masses fall, beside the boundaries that were measured.
     Diagram(diagram::Arguments),
     /// Draw twelve drops as one sees them.
@@ -43,6 +47,7 @@ enum Figure {
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     match &arguments.figure {
         None => measure::run(&arguments.measure),
+        Some(Figure::Compare(figure)) => compare::run(figure),
         Some(Figure::Diagram(figure)) => diagram::run(figure),
         Some(Figure::Tracks3d(figure)) => tracks3d::run(figure),
     }

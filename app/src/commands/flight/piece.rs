@@ -10,10 +10,11 @@ use clap::{Args, ValueEnum};
 use glam::DVec2;
 use windfall_core::flight::planform::Measured;
 use windfall_core::scene::limits::{AREAL_DENSITY_KG_M2, ASPECT, EXTENT, SIZE_M};
-use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
+use windfall_core::scene::{Aerodynamics, FlightModel, Hold, NamedFiles, Planform, Species};
 
 use super::outline;
-use crate::leaves::species_of_folder;
+use crate::leaves::{load_scene, species_of_folder};
+use crate::run::scene_arguments::OutsideArguments;
 
 /// Hold of a piece before it is let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -36,6 +37,11 @@ impl Release {
         }
     }
 
+    /// The one of this name.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        [Self::Broadside, Self::EdgeOn, Self::Random].into_iter().find(|release| release.name() == name)
+    }
+
     fn hold(self) -> Hold {
         match self {
             Self::Broadside => Hold::Broadside,
@@ -52,6 +58,11 @@ pub(super) struct PieceArguments {
     /// feather, paper-scrap, plate, samara; or a folder of leaves, such as `windfall leaf make` writes.
     #[arg(long, value_name = "SPECIES", conflicts_with = "shape")]
     species: Option<String>,
+    /// Preset or path of a RON file whose species --species names, with the folder of leaves that it names there.
+    #[arg(long, value_name = "SCENE", requires = "species")]
+    scene: Option<String>,
+    #[command(flatten)]
+    outside: OutsideArguments,
     /// Flat piece: disc, square, hexagon, or a CSV file of corners, a line `x,y` for each in any unit.
     #[arg(long, value_name = "SHAPE", requires_all = ["size", "areal_density"])]
     shape: Option<String>,
@@ -97,6 +108,10 @@ impl PieceArguments {
     /// Options that are missing, unknown names, outlines that cannot be used, sizes that are not allowed.
     pub(super) fn load(&self) -> anyhow::Result<Piece> {
         let piece = match (&self.species, &self.shape, self.size, self.areal_density) {
+            (Some(name), ..) if let Some(scene) = &self.scene => {
+                let species = of_scene(scene, name, self.outside.named_files())?;
+                Piece::of_species(species, name.clone(), self.size, self.areal_density)?
+            }
             (Some(name), ..) => Piece::leaf(name, self.size, self.areal_density)?,
             (None, Some(name), Some(size_m), Some(density)) => Piece::flat(name, size_m, density)?,
             _ => bail!(
@@ -107,6 +122,21 @@ impl PieceArguments {
     }
 }
 
+/// The species of a scene, built as the leaves of the folder that it names.
+fn of_scene(scene: &str, name: &str, allowed: NamedFiles) -> anyhow::Result<Species> {
+    let all = load_scene(scene, allowed)?.species;
+    let Some(species) = all.iter().find(|species| species.name == name) else {
+        let names: Vec<_> = all.iter().map(|species| species.name.as_str()).collect();
+        bail!("--species is '{}'; allowed: species of {scene}: {}", name.escape_debug(), names.join(", "));
+    };
+    if species.flight == FlightModel::Synthesis {
+        bail!(
+            "--species is '{name}', whose flight is Synthesis in {scene}; allowed: species that are Aerodynamic"
+        );
+    }
+    Ok(species.clone())
+}
+
 impl Piece {
     /// A kind of leaf, or the mean of the leaves in a folder.
     ///
@@ -114,7 +144,7 @@ impl Piece {
     /// Unknown names, folders that cannot be used, and sizes that are not allowed.
     pub(super) fn leaf(name: &str, size_m: Option<f32>, density: Option<f32>) -> anyhow::Result<Self> {
         let path = Path::new(name);
-        let (mut species, name) = match Species::preset(name) {
+        let (species, name) = match Species::preset(name) {
             Some(species) => (species, name.to_ascii_lowercase()),
             None if path.is_dir() => (species_of_folder(path)?, name.to_owned()),
             None => bail!(
@@ -123,6 +153,16 @@ impl Piece {
                 Species::PRESETS.join(", ")
             ),
         };
+        Self::of_species(species, name, size_m, density)
+    }
+
+    /// A species, of this size and mass per area where they are given.
+    fn of_species(
+        mut species: Species,
+        name: String,
+        size_m: Option<f32>,
+        density: Option<f32>,
+    ) -> anyhow::Result<Self> {
         species.size_variation = 0.0;
         species.speed_variation = 0.0;
         if let Some(size_m) = size_m {

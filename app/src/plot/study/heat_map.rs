@@ -9,15 +9,21 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font};
 
-/// Size of the map of one point in pixels.
-pub(super) const SIZE: (u32, u32) = (900, 640);
-/// Size of a panel among others.
-const PANEL: (u32, u32) = (380, 300);
+/// Widths in pixels of the picture of one point, and of a panel among others.
+const WIDTH: u32 = 900;
+const PANEL_WIDTH: u32 = 380;
+/// Size of the text of either in pixels, and margin of a map.
+const TEXT: u32 = 22;
+const PANEL_TEXT: u32 = 17;
+const MARGIN: u32 = 10;
 /// Room above and beside the panels.
 const HEAD: u32 = 66;
 const BAR: u32 = 130;
-/// Cells of a map.
-const CELLS: (usize, usize) = (48, 32);
+/// Square cells of a map along the wind, and fewest and most across.
+const COLUMNS: u32 = 48;
+const ROWS: std::ops::RangeInclusive<u32> = 16..=48;
+/// Largest share of a map's width that its scale bar takes.
+const SCALE_BAR_SHARE: f64 = 0.25;
 /// Share of drops that may lie beyond the map's edges at each of its four sides.
 const BEYOND: f64 = 0.01;
 
@@ -26,6 +32,8 @@ const BEYOND: f64 = 0.01;
 pub(super) struct Frame {
     along: Range<f64>,
     across: Range<f64>,
+    /// Cells across.
+    rows: u32,
     /// Smallest share of a point's drops that a cell can hold, and the largest that one does.
     shares: (f64, f64),
 }
@@ -35,7 +43,16 @@ impl Frame {
     pub(super) fn around(points: &[Vec<(f64, f64)>]) -> Self {
         let along = range(points.iter().flatten().map(|drift| drift.0).collect());
         let across = range(points.iter().flatten().map(|drift| drift.1).collect());
-        let mut frame = Self { along, across, shares: (1.0, 0.0) };
+        let size = |range: &Range<f64>| range.end - range.start;
+        let (columns, most) = (f64::from(COLUMNS), f64::from(*ROWS.end()));
+        let cell_m = (size(&along) / columns).max(size(&across) / most);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of cells")]
+        let rows = ((size(&across) / cell_m).ceil() as u32).clamp(*ROWS.start(), *ROWS.end());
+        let [along, across] = [(along, COLUMNS), (across, rows)].map(|(range, cells)| {
+            let (middle, half) = (0.5 * (range.start + range.end), 0.5 * cell_m * f64::from(cells));
+            middle - half..middle + half
+        });
+        let mut frame = Self { along, across, rows, shares: (1.0, 0.0) };
         for drifts in points.iter().filter(|drifts| !drifts.is_empty()) {
             let one = 1.0 / drifts.len() as f64;
             let most = frame.cells(drifts).into_iter().max().unwrap_or(0);
@@ -49,14 +66,32 @@ impl Frame {
 
     /// Numbers of drops in the cells, along running fastest.
     fn cells(&self, drifts: &[(f64, f64)]) -> Vec<u32> {
-        let mut cells = vec![0; CELLS.0 * CELLS.1];
+        let mut cells = vec![0; (COLUMNS * self.rows) as usize];
         for &(along, across) in drifts {
-            let place = cell(&self.along, CELLS.0, along).zip(cell(&self.across, CELLS.1, across));
+            let place = cell(&self.along, COLUMNS, along).zip(cell(&self.across, self.rows, across));
             if let Some((column, row)) = place {
-                cells[row * CELLS.0 + column] += 1;
+                cells[(row * COLUMNS + column) as usize] += 1;
             }
         }
         cells
+    }
+
+    /// Size in pixels of the map of one point.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (WIDTH, self.panel_height(WIDTH - BAR, TEXT))
+    }
+
+    /// Size in pixels of the maps of so many points, side by side in columns.
+    pub(super) fn grid_size(&self, columns: u32, panels: u32) -> (u32, u32) {
+        // A single panel leaves room for the heading.
+        let width = PANEL_WIDTH * columns.max(2) + BAR;
+        (width, self.panel_height(PANEL_WIDTH, PANEL_TEXT) * panels.div_ceil(columns).max(1) + HEAD)
+    }
+
+    /// Height of a panel in which a metre is as long across as along.
+    fn panel_height(&self, width: u32, text: u32) -> u32 {
+        let Rooms { head, below, beside } = Rooms::of(text);
+        head + below + 2 * MARGIN + (width - beside - 2 * MARGIN) * self.rows / COLUMNS
     }
 
     /// The colour of a share, on a logarithmic scale.
@@ -66,11 +101,24 @@ impl Frame {
     }
 }
 
+/// Rooms in pixels for the text around a map: its title, and the labels of its axes.
+struct Rooms {
+    head: u32,
+    below: u32,
+    beside: u32,
+}
+
+impl Rooms {
+    fn of(text: u32) -> Self {
+        Self { head: text * 2, below: text * 26 / 10, beside: text * 34 / 10 }
+    }
+}
+
 /// The cell that a place lies in.
-fn cell(range: &Range<f64>, cells: usize, place: f64) -> Option<usize> {
+fn cell(range: &Range<f64>, cells: u32, place: f64) -> Option<u32> {
     let share = (place - range.start) / (range.end - range.start);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the cells")]
-    let index = (share * cells as f64) as usize;
+    let index = (share * f64::from(cells)) as u32;
     (share >= 0.0 && index < cells).then_some(index)
 }
 
@@ -87,17 +135,10 @@ fn range(mut values: Vec<f64>) -> Range<f64> {
 
 /// The map of one point.
 pub(super) fn draw_one(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f64, f64)]) -> Drawn {
-    let (left, right) = area.split_horizontally((SIZE.0 - BAR) * UNIT);
-    panel(&left, frame, title, drifts, 22)?;
+    let (left, right) = area.split_horizontally((WIDTH - BAR) * UNIT);
+    panel(&left, frame, title, drifts, TEXT)?;
     let (_, lower) = right.split_vertically(44 * UNIT);
-    color_bar(&lower, frame, SIZE.1 - 150)
-}
-
-/// Size of the picture of so many panels.
-pub(super) fn grid_size(columns: usize, panels: usize) -> (u32, u32) {
-    let count = |number: usize| u32::try_from(number).unwrap_or(1);
-    // A single panel leaves room for the heading.
-    (PANEL.0 * count(columns.max(2)) + BAR, PANEL.1 * count(panels.div_ceil(columns)).max(1) + HEAD)
+    color_bar(&lower, frame, frame.size().1 - 150)
 }
 
 /// All maps side by side.
@@ -105,39 +146,43 @@ pub(super) fn draw_grid(
     area: &Area<'_>,
     frame: &Frame,
     heading: &str,
-    columns: usize,
+    columns: u32,
     panels: &[(&str, &[(f64, f64)])],
 ) -> Drawn {
     let (head, body) = area.split_vertically(HEAD * UNIT);
     let unit = UNIT as i32;
     let style = font(28).pos(Pos::new(HPos::Left, VPos::Center));
     head.draw(&Text::new(heading.to_owned(), (24 * unit, 36 * unit), style))?;
-    let size = grid_size(columns, panels.len());
-    let (maps, bar) = body.split_horizontally((size.0 - BAR) * UNIT);
-    let areas = maps.split_evenly((panels.len().div_ceil(columns), columns));
+    let (width, height) = frame.grid_size(columns, u32::try_from(panels.len())?);
+    let (maps, bar) = body.split_horizontally((width - BAR) * UNIT);
+    let areas = maps.split_evenly((panels.len().div_ceil(columns as usize), columns as usize));
     for (area, (title, drifts)) in areas.iter().zip(panels) {
-        panel(area, frame, title, drifts, 17)?;
+        panel(area, frame, title, drifts, PANEL_TEXT)?;
     }
-    color_bar(&bar, frame, (size.1 - HEAD - 80).min(460))
+    color_bar(&bar, frame, (height - HEAD - 80).min(460))
 }
 
 /// One map.
 fn panel(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f64, f64)], text: u32) -> Drawn {
     let cells = frame.cells(drifts);
-    let beyond = drifts.len() as f64 - f64::from(cells.iter().sum::<u32>());
-    let share = 100.0 * beyond / drifts.len().max(1) as f64;
-    let caption = if beyond > 0.0 { format!("{title} ({share:.1} % farther out)") } else { title.to_owned() };
-    let mut chart = ChartBuilder::on(area)
-        .margin(10 * UNIT)
-        .margin_top(14 * UNIT)
-        .caption(caption, font(text))
-        .x_label_area_size(text * 26 / 10 * UNIT)
-        .y_label_area_size(text * 34 / 10 * UNIT)
+    let rooms = Rooms::of(text);
+    let (head, body) = area.split_vertically(rooms.head * UNIT);
+    let (width, height) = head.dim_in_pixel();
+    let bottom = Pos::new(HPos::Center, VPos::Bottom);
+    // A long title is written smaller.
+    let (title_width, _) = head.estimate_text_size(title, &font(text))?;
+    let title_size = if title_width > width { text * width / title_width } else { text };
+    let place = (i32::try_from(width / 2)?, i32::try_from(height)?);
+    head.draw(&Text::new(title.to_owned(), place, font(title_size).pos(bottom)))?;
+    let mut chart = ChartBuilder::on(&body)
+        .margin(MARGIN * UNIT)
+        .x_label_area_size(rooms.below * UNIT)
+        .y_label_area_size(rooms.beside * UNIT)
         .build_cartesian_2d(frame.along.clone(), frame.across.clone())?;
-    let width = (frame.along.end - frame.along.start) / CELLS.0 as f64;
-    let height = (frame.across.end - frame.across.start) / CELLS.1 as f64;
-    chart.draw_series(cells.iter().enumerate().filter(|(_, count)| **count > 0).map(|(index, &count)| {
-        let (column, row) = ((index % CELLS.0) as f64, (index / CELLS.0) as f64);
+    let width = (frame.along.end - frame.along.start) / f64::from(COLUMNS);
+    let height = (frame.across.end - frame.across.start) / f64::from(frame.rows);
+    chart.draw_series((0u32..).zip(&cells).filter(|(_, count)| **count > 0).map(|(index, &count)| {
+        let (column, row) = (f64::from(index % COLUMNS), f64::from(index / COLUMNS));
         let corner = (frame.along.start + column * width, frame.across.start + row * height);
         let share = f64::from(count) / drifts.len() as f64;
         Rectangle::new([corner, (corner.0 + width, corner.1 + height)], frame.color(share).filled())
@@ -158,11 +203,14 @@ fn panel(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f64, f64)], tex
         .y_label_formatter(&|metres| short(*metres))
         .draw()?;
     // Where all were let go.
-    let at = chart.backend_coord(&(0.0, 0.0));
+    let root = body.strip_coord_spec();
+    let offset = body.get_base_pixel();
+    let pixel_of = |place: (f64, f64)| {
+        let at = chart.backend_coord(&place);
+        (at.0 - offset.0, at.1 - offset.1)
+    };
+    let at = pixel_of((0.0, 0.0));
     let mark = (text / 3 * UNIT) as i32;
-    let root = area.strip_coord_spec();
-    let offset = area.get_base_pixel();
-    let at = (at.0 - offset.0, at.1 - offset.1);
     for arm in [(mark, 0), (0, mark)] {
         let line = [(at.0 - arm.0, at.1 - arm.1), (at.0 + arm.0, at.1 + arm.1)];
         root.draw(&PathElement::new(line, PAPER.stroke_width(4 * UNIT)))?;
@@ -171,7 +219,40 @@ fn panel(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f64, f64)], tex
         let line = [(at.0 - arm.0, at.1 - arm.1), (at.0 + arm.0, at.1 + arm.1)];
         root.draw(&PathElement::new(line, RGBColor(186, 60, 48).stroke_width(2 * UNIT)))?;
     }
+    let length_m = round_length((frame.along.end - frame.along.start) * SCALE_BAR_SHARE);
+    let end = pixel_of((frame.along.end, frame.across.start));
+    let start = pixel_of((frame.along.end - length_m, frame.across.start));
+    scale_bar(&root, (end.0 - start.0, end), length_m, text)?;
+    let beyond = drifts.len() as f64 - f64::from(cells.iter().sum::<u32>());
+    if beyond > 0.0 {
+        let share = format!("{:.1} % farther out", 100.0 * beyond / drifts.len() as f64);
+        let (right, top) = pixel_of((frame.along.end, frame.across.end));
+        let style = font(text * 8 / 10).pos(Pos::new(HPos::Right, VPos::Top));
+        root.draw(&Text::new(share, (right - mark, top + mark), style))?;
+    }
     Ok(())
+}
+
+/// Scale bar of so many pixels in the lower right corner of a map.
+fn scale_bar(area: &Area<'_>, (pixels, corner): (i32, (i32, i32)), length_m: f64, text: u32) -> Drawn {
+    let unit = UNIT as i32;
+    let size = text as i32 * unit;
+    let (right, y) = (corner.0 - size, corner.1 - size * 3 / 4);
+    let left = right - pixels;
+    let around = [(left - size / 3, y - size * 5 / 4), (right + size / 3, y + size / 3)];
+    area.draw(&Rectangle::new(around, PAPER.mix(0.85).filled()))?;
+    let tick = size / 5;
+    let line = vec![(left, y - tick), (left, y), (right, y), (right, y - tick)];
+    area.draw(&PathElement::new(line, INK.stroke_width(2 * UNIT)))?;
+    let style = font(text * 8 / 10).pos(Pos::new(HPos::Center, VPos::Bottom));
+    area.draw(&Text::new(format!("{} m", short(length_m)), (i32::midpoint(left, right), y - tick), style))?;
+    Ok(())
+}
+
+/// Largest length of one, two or five and zeros that is not above `most`.
+fn round_length(most: f64) -> f64 {
+    let power = 10f64.powf(most.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|digit| digit * power).find(|length| *length <= most).unwrap_or(power)
 }
 
 /// A number without digits that say nothing.
@@ -207,4 +288,29 @@ fn color_bar(area: &Area<'_>, frame: &Frame, height: u32) -> Drawn {
         area.draw(&Text::new(text, (x + 34 * unit, top + y), label.clone()))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_has_square_cells_and_shows_nearly_all() {
+        for (breadth, rows) in [(0.1, 16), (1.0, 46), (20.0, 48)] {
+            let drifts: Vec<_> = (0..400).map(|n| (f64::from(n % 20), breadth * f64::from(n / 20))).collect();
+            let frame = Frame::around(std::slice::from_ref(&drifts));
+            let size = |range: &Range<f64>, cells: u32| (range.end - range.start) / f64::from(cells);
+            let cell = (size(&frame.along, COLUMNS), size(&frame.across, frame.rows));
+            assert!((cell.0 / cell.1 - 1.0).abs() < 1e-12, "{frame:?}");
+            assert!(frame.rows.abs_diff(rows) <= 2, "{frame:?}");
+            assert!(frame.cells(&drifts).iter().sum::<u32>() >= 384, "of 400: {frame:?}");
+        }
+    }
+
+    #[test]
+    fn lengths_of_scale_bars_are_round() {
+        for (most, length) in [(1.0, 1.0), (1.9, 1.0), (4.99, 2.0), (5.0, 5.0), (73.0, 50.0), (0.03, 0.02)] {
+            assert!((round_length(most) / length - 1.0).abs() < 1e-12, "{most}: {}", round_length(most));
+        }
+    }
 }

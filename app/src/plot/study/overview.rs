@@ -5,20 +5,20 @@
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
 
 use super::heat_map::short;
+use super::page::motion_name;
 use crate::plot::picture::{Area, Drawn, INK, UNIT, font};
 use crate::study::landing::MOTION_COUNT;
 use crate::study::point::Point;
+use crate::study::statistics::Distribution;
 use crate::study::summary::Summary;
 use crate::study::variation::Variation;
 
 /// Size of the picture in pixels.
 pub(super) const SIZE: (u32, u32) = (1800, 1180);
 /// Names and units of the panels, which show [`Summary::quantities`].
-const PANELS: [(&str, &str); 5] = [
+pub(super) const PANELS: [(&str, &str); 5] = [
     ("time aloft", "s"),
     ("mean descent", "m/s"),
     ("horizontal distance", "m"),
@@ -100,13 +100,13 @@ pub(super) fn draw(
     let (head, body) = area.split_vertically(64 * UNIT);
     let drops = summaries.iter().map(|summary| summary.drops).max().unwrap_or(0);
     let unit = UNIT as i32;
-    let spread = if curves <= MOST_BANDS { "mean and standard deviation of" } else { "means over" };
+    let spread = if curves <= MOST_BANDS { "median and middle 80 % of" } else { "medians of" };
     let style = font(30).pos(Pos::new(HPos::Left, VPos::Center));
     head.draw(&Text::new(format!("{name}: {spread} {drops} drops"), (28 * unit, 36 * unit), style))?;
     let (panels, foot) = body.split_vertically((SIZE.1 - 64 - 60) * UNIT);
     let areas = panels.split_evenly((2, 3));
     for (index, (area, (title, in_units))) in areas.iter().zip(PANELS).enumerate() {
-        let values: Vec<Vec<(f64, f64)>> = (0..curves)
+        let values: Vec<Vec<Distribution>> = (0..curves)
             .map(|curve| of_curve(curve).iter().map(|summary| summary.quantities[index]).collect())
             .collect();
         quantity(area, &axis, title, in_units, &values)?;
@@ -181,18 +181,19 @@ where
     Ok(chart)
 }
 
-/// One quantity: a curve of means, within a band of one standard deviation.
+/// One quantity: a curve of medians, within a band of the middle eight in ten.
 fn quantity(
     area: &Area<'_>,
     axis: &Axis<'_>,
     title: &str,
     in_units: &str,
-    curves: &[Vec<(f64, f64)>],
+    curves: &[Vec<Distribution>],
 ) -> Drawn {
     let has_bands = curves.len() <= MOST_BANDS;
-    let ends = curves.iter().flatten().filter(|(mean, _)| !mean.is_nan()).flat_map(|&(mean, deviation)| {
-        let reach = if has_bands && !deviation.is_nan() { deviation } else { 0.0 };
-        [mean - reach, mean + reach]
+    let there = curves.iter().flatten().filter(|quantity| !quantity.median.is_nan());
+    let ends = there.flat_map(|quantity| match has_bands {
+        true => [quantity.p10, quantity.p90],
+        false => [quantity.median; 2],
     });
     let (low, high) = ends.fold((0.0f64, 0.0f64), |(low, high), end| (low.min(end), high.max(end)));
     let room = (0.06 * (high - low)).max(0.05);
@@ -202,17 +203,15 @@ fn quantity(
     let mut chart = chart(area, axis, title, in_units, range).map_err(|error| error.to_string())?;
     for (index, curve) in curves.iter().enumerate() {
         let color = color(index, curves.len());
-        let there: Vec<_> = axis.places.iter().zip(curve).filter(|(_, (mean, _))| !mean.is_nan()).collect();
+        let there: Vec<_> =
+            axis.places.iter().zip(curve).filter(|(_, quantity)| !quantity.median.is_nan()).collect();
         if has_bands && there.len() > 1 {
-            let edge = |sign: f64| {
-                there
-                    .iter()
-                    .map(move |&(&x, &(mean, std))| (x, mean + sign * if std.is_nan() { 0.0 } else { std }))
-            };
-            let corners: Vec<_> = edge(1.0).chain(edge(-1.0).rev()).collect();
+            let lower = there.iter().map(|&(&x, quantity)| (x, quantity.p10));
+            let upper = there.iter().map(|&(&x, quantity)| (x, quantity.p90));
+            let corners: Vec<_> = upper.chain(lower.rev()).collect();
             chart.draw_series([Polygon::new(corners, color.mix(0.16))])?;
         }
-        let line: Vec<_> = there.iter().map(|&(&x, &(mean, _))| (x, mean)).collect();
+        let line: Vec<_> = there.iter().map(|&(&x, quantity)| (x, quantity.median)).collect();
         if axis.names.is_none() {
             chart.draw_series(LineSeries::new(line.clone(), color.stroke_width(3 * UNIT)))?;
         }
@@ -255,9 +254,7 @@ fn motions(area: &Area<'_>, axis: &Axis<'_>, curves: usize, summaries: &[Summary
             ))?;
         }
         below = above;
-        let name = motion
-            .checked_sub(PRIMITIVE_COUNT)
-            .map_or_else(|| Primitive::ALL[motion].code(), |regime| REGIME_NAMES[regime]);
+        let name = motion_name(motion);
         key.draw(&Rectangle::new([(0, row - 8 * unit), (16 * unit, row + 8 * unit)], color.filled()))?;
         let style = font(18).pos(Pos::new(HPos::Left, VPos::Center));
         key.draw(&Text::new(name, (24 * unit, row), style))?;
