@@ -64,7 +64,7 @@ impl Study<'_> {
         Ok(page)
     }
 
-    /// What was dropped, how, and under which settings.
+    /// Paragraph about the drops, and a list of the variations.
     fn description(&self) -> String {
         let drops: u64 = self.summaries.iter().map(|summary| u64::from(summary.drops)).sum();
         let landed: u64 = self.summaries.iter().map(|summary| u64::from(summary.landed)).sum();
