@@ -71,7 +71,7 @@ pub struct WindfallLeaf {
     pub species: u32,
     /// 0 not let go yet, 1 on a branch, 2 in the air, 3 at rest.
     pub state: u32,
-    /// 0 none, then the primitive motions in their order, then the regimes of bodies: steady, flutter, tumble, chaotic, helical, spiral.
+    /// 0 none, then the primitive motions in their order, then the regimes of bodies: steady, flutter, tumble, chaotic, helical, spiral, autorotation.
     pub motion: u32,
 }
 

@@ -16,6 +16,7 @@ pub(super) fn color(regime: Regime) -> RGBColor {
         Regime::Flutter => 3,
         Regime::Helical => 4,
         Regime::Spiral => 5,
+        Regime::Autorotation => 6,
     };
     let [red, green, blue] = MOTIONS[motion].1;
     RGBColor(red, green, blue)

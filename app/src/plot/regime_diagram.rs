@@ -10,7 +10,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::boundaries::boundaries;
 use super::colors::color;
 use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
-use crate::study::regime::Regime;
+use crate::study::regime::{COUNT, Regime};
 
 /// Size of the picture in pixels.
 pub(crate) const SIZE: (u32, u32) = (1600, 1120);
@@ -27,7 +27,7 @@ pub(crate) struct Spot {
     pub(crate) reynolds: f64,
     pub(crate) inertia: f64,
     /// Shares of drops in the order of [`Regime::ALL`].
-    pub(crate) shares: [f64; 6],
+    pub(crate) shares: [f64; COUNT],
 }
 
 impl Spot {
@@ -160,11 +160,11 @@ fn legend(area: &Area<'_>, drops: u32) -> Drawn {
     let row = 22 * unit;
     let style = font(23).pos(Pos::new(HPos::Left, VPos::Center));
     for (index, regime) in (0..).zip(Regime::ALL) {
-        let x = (150 + 128 * index) * unit;
+        let x = (40 + 128 * index) * unit;
         area.draw(&Circle::new((x, row), 9 * UNIT, color(regime).filled()))?;
         area.draw(&Text::new(regime.name(), (x + 16 * unit, row), style.clone()))?;
     }
     let text = format!("shares of {drops} drops a disc, let go any way round");
-    area.draw(&Text::new(text, (950 * unit, row), style))?;
+    area.draw(&Text::new(text, (990 * unit, row), style))?;
     Ok(())
 }

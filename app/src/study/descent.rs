@@ -5,9 +5,11 @@
 //! Every number of a drop is taken from where it has fallen for a while to the ground, so that it does not depend on the
 //! release. Samples are evenly spaced in time.
 
+use std::f64::consts::{PI, TAU};
+
 use glam::DVec3;
 
-use super::regime::{PerRegime, Regime};
+use super::regime::{COUNT, PerRegime, Regime};
 use super::sample::Sample;
 use super::statistics::{MIDDLE, quantile};
 
@@ -54,8 +56,11 @@ struct Way {
     descent_squared: f64,
     horizontal: f64,
     peaks: Peaks,
+    /// Turns about the vertical while it autorotates, in rad, and the direction of its length then.
+    round_rad: f64,
+    heading_rad: Option<f64>,
     /// Steps by regime, from the first on that is not steady, if there is one.
-    regimes: [u32; 6],
+    regimes: [u32; COUNT],
     is_classified: bool,
 }
 
@@ -78,7 +83,8 @@ pub(crate) struct DropNumbers {
     pub(crate) horizontal_speed_m_s: f64,
     /// Horizontal distance of the ends of the way over their vertical distance.
     pub(crate) drift: f64,
-    /// Half the peaks of the area seen from above, per second: turns of what tumbles, swings of what flutters.
+    /// Half the peaks of the area seen from above, per second: turns of what tumbles, swings of what flutters; and turns about the
+    /// vertical of what autorotates.
     pub(crate) turns_per_s: f64,
     /// The regime that it was in for longest since it was first seen not to fall steadily; chaotic, if that is tumbling,
     /// but not for three quarters of that time.
@@ -108,7 +114,9 @@ impl Watch {
             descent_squared: 0.0,
             horizontal: 0.0,
             peaks: Peaks::new(seen_from_above),
-            regimes: [0; 6],
+            round_rad: 0.0,
+            heading_rad: None,
+            regimes: [0; COUNT],
             is_classified: false,
         });
         let velocity = sample.velocity_m_s;
@@ -117,11 +125,19 @@ impl Watch {
         way.descent -= velocity.y;
         way.descent_squared += velocity.y * velocity.y;
         way.horizontal += velocity.x.hypot(velocity.z);
-        way.peaks.add(seen_from_above);
+        if sample.regime == Regime::Autorotation {
+            let length = sample.attitude * DVec3::Z;
+            let heading = length.x.atan2(length.z);
+            let before = way.heading_rad.replace(heading).unwrap_or(heading);
+            way.round_rad += (heading - before + PI).rem_euclid(TAU) - PI;
+        } else {
+            way.heading_rad = None;
+            way.peaks.add(seen_from_above);
+        }
         // A fall is called steady until it has been seen to turn or swing a few times.
         if !way.is_classified && sample.regime != Regime::Steady {
             way.is_classified = true;
-            way.regimes = [0; 6];
+            way.regimes = [0; COUNT];
         }
         way.regimes[sample.regime as usize] += 1;
     }
@@ -138,7 +154,7 @@ impl Watch {
             rms_vz_m_s: (way.descent_squared / count - mean * mean).max(0.0).sqrt(),
             horizontal_speed_m_s: way.horizontal / count,
             drift: gone.x.hypot(gone.z) / gone.y.abs().max(1e-9),
-            turns_per_s: 0.5 * f64::from(way.peaks.count) / seconds,
+            turns_per_s: (0.5 * f64::from(way.peaks.count) + way.round_rad.abs() / TAU) / seconds,
             regime,
         })
     }

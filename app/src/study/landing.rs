@@ -8,10 +8,11 @@ use anyhow::{anyhow, bail};
 use windfall_core::Scene;
 use windfall_core::motion::PRIMITIVE_COUNT;
 
+use super::regime::COUNT;
 use crate::files::CsvFile;
 
-/// Motions of synthesised leaves, then six regimes of bodies.
-pub(crate) const MOTION_COUNT: usize = PRIMITIVE_COUNT + 6;
+/// Motions of synthesised leaves, then regimes of bodies.
+pub(crate) const MOTION_COUNT: usize = PRIMITIVE_COUNT + COUNT;
 /// Header of the table.
 const HEADER: [&str; 12] = [
     "drop",

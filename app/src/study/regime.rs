@@ -3,7 +3,10 @@
 //! Regimes of falling bodies.
 
 use serde::Serialize;
-use windfall_core::device::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::{REGIME_COUNT, REGIME_NAMES};
+
+/// Number of regimes.
+pub(crate) const COUNT: usize = REGIME_COUNT as usize;
 
 /// Regime of a falling body, as the simulation classifies it from its latest turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,12 +23,21 @@ pub(crate) enum Regime {
     Helical,
     /// Hardly swings while its heading goes round.
     Spiral,
+    /// Goes round the direction of its fall, as a winged seed does.
+    Autorotation,
 }
 
 impl Regime {
     /// All of them, in the order of their numbers.
-    pub(crate) const ALL: [Self; 6] =
-        [Self::Steady, Self::Flutter, Self::Tumble, Self::Chaotic, Self::Helical, Self::Spiral];
+    pub(crate) const ALL: [Self; COUNT] = [
+        Self::Steady,
+        Self::Flutter,
+        Self::Tumble,
+        Self::Chaotic,
+        Self::Helical,
+        Self::Spiral,
+        Self::Autorotation,
+    ];
 
     /// Name in reports.
     pub(crate) fn name(self) -> &'static str {
@@ -42,16 +54,19 @@ pub(crate) struct PerRegime {
     pub(crate) chaotic: f64,
     pub(crate) helical: f64,
     pub(crate) spiral: f64,
+    pub(crate) autorotation: f64,
 }
 
 impl PerRegime {
     /// From numbers in the order of [`Regime::ALL`].
-    pub(crate) fn from_array([steady, flutter, tumble, chaotic, helical, spiral]: [f64; 6]) -> Self {
-        Self { steady, flutter, tumble, chaotic, helical, spiral }
+    pub(crate) fn from_array(numbers: [f64; COUNT]) -> Self {
+        let [steady, flutter, tumble, chaotic, helical, spiral, autorotation] = numbers;
+        Self { steady, flutter, tumble, chaotic, helical, spiral, autorotation }
     }
 
     /// The numbers in the order of [`Regime::ALL`].
-    pub(crate) fn to_array(self) -> [f64; 6] {
-        [self.steady, self.flutter, self.tumble, self.chaotic, self.helical, self.spiral]
+    pub(crate) fn to_array(self) -> [f64; COUNT] {
+        let Self { steady, flutter, tumble, chaotic, helical, spiral, autorotation } = self;
+        [steady, flutter, tumble, chaotic, helical, spiral, autorotation]
     }
 }

@@ -52,6 +52,7 @@ pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     REGIME_NAMES[3],
     REGIME_NAMES[4],
     REGIME_NAMES[5],
+    REGIME_NAMES[6],
 ];
 /// Quantities that have a distribution.
 pub(crate) const QUANTITIES: usize = 5;

@@ -79,7 +79,8 @@ impl FlyingBlock<'_> {
             Flight { position, velocity, pose: Quat::from(attitudes), spin: body_spin(phase, rate, heading) };
         let Flown { flight, is_calm, is_wet } =
             flight_advance::<P, OverGround>(cx, start, bits, size.to_bits(), wind);
-        let regime = update_regime(cx, &flight, wind, regime_state(fall_time.to_bits()), bits);
+        let before = regime_state(fall_time.to_bits());
+        let regime = update_regime(cx, &flight, wind, before, bits, size.to_bits());
         let bits = count_calm_steps(cx, regime.bits, is_calm, is_wet);
         let lands = flight_ends(cx, bits, flight.position);
         let moved = on & !lands;

@@ -17,16 +17,16 @@ const DRY: Aerodynamics = Aerodynamics {
 const FEATHER: Aerodynamics =
     Aerodynamics { mass_offset: (-0.4, 0.0), curl: 0.3, twist: 0.3, ..Aerodynamics::FLAT };
 
-/// Nearly all the mass is in the nut at one end: after a dive of some three metres it spins like a rotor, as the
-/// seeds of maples do, at 1.05 m/s and 14 turns a second.
+/// Most of the mass is in the nut at one end: within a metre of any release it spins like a rotor, as the seeds of maples do, at 1 m/s and 14 turns
+/// a second. Curl, twist and the drag of its edge are more than a seed has: they stand in for the torque of a twisted blade in a flow along it.
 const SAMARA: Aerodynamics = Aerodynamics {
-    planform: Some(Planform { aspect: 3.577, extent: 1.0 }),
-    mass_offset: (-0.6691, -0.0863),
-    curl: 0.0655,
-    twist: 0.4346,
-    gyration: (0.2443, 0.3427),
-    edge_drag: 0.1067,
-    pitch_damping: 0.073,
+    planform: Some(Planform { aspect: 2.7, extent: 1.03 }),
+    mass_offset: (-0.7, -0.195),
+    curl: 0.345,
+    twist: 1.0,
+    gyration: (0.4, 0.367),
+    edge_drag: 0.2,
+    pitch_damping: 0.5,
     irregularity: 0.02,
     ..Aerodynamics::FLAT
 };

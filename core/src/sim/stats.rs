@@ -44,7 +44,7 @@ pub struct LeafStats {
     pub resting: u32,
     /// Falling leaves that are synthesised, by primitive motion, in the order of [`Primitive::ALL`].
     pub primitives: [u32; PRIMITIVE_COUNT],
-    /// Falling leaves that fly as bodies, by regime: steady, flutter, tumble, chaotic, helical, spiral.
+    /// Falling leaves that fly as bodies, by regime: steady, flutter, tumble, chaotic, helical, spiral, autorotation.
     pub regimes: [u32; REGIME_COUNT as usize],
     /// Leaves whose position is not a finite number: always zero unless something is wrong.
     pub broken: u32,

@@ -6,7 +6,7 @@ use windfall_core::arith::Vec3;
 use windfall_core::device::flight::body::{LeafBody, body_of};
 use windfall_core::device::flight::contact::OverGround;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
-use windfall_core::device::flight::regime::{regime_after, regime_of};
+use windfall_core::device::flight::regime::{regime_after, regime_in_spin, regime_of};
 use windfall_core::device::flight::runge_kutta::{flight_step, substep_count};
 use windfall_core::device::leaf::fly::{
     Flight, flight_advance, flight_load, longest_way_squared, update_regime,
@@ -146,9 +146,13 @@ functions! {
         regime_of(w[0]),
     ]);
 
-    update_regime in "leaf/fly" (SPECIES, ANY, FLOW, POSE, SPIN, FLOW) tolerance None;
+    regime_in_spin in "flight/regime" (Input::Below(7), FLOW, SPIN, Input::Float(0.01, 0.2)) tolerance None;
+    wgsl "r.x = regime_in_spin(a.x, in_vec3(1u), in_vec3(4u), in_float(7u));";
+    rust |_cx, w| integers([regime_in_spin(w[0], vector(w, 1), vector(w, 4), float(w[7]))]);
+
+    update_regime in "leaf/fly" (SPECIES, ANY, FLOW, POSE, SPIN, FLOW, SIZE) tolerance None;
     wgsl "let flight = Flight(vec3<f32>(), in_vec3(2u), in_vec4(5u), in_vec3(9u));
-        let regime = update_regime(flight, in_vec3(12u), a.y, (1u + a.x) << SPECIES_SHIFT);
+        let regime = update_regime(flight, in_vec3(12u), a.y, (1u + a.x) << SPECIES_SHIFT, SIZE_ONE - 4096u + in_word(15u));
         r.x = regime.state; r.y = regime.bits;";
     rust |cx, w| {
         let flight = Flight {
@@ -157,7 +161,8 @@ functions! {
             pose: quaternion(w, 5),
             spin: vector(w, 9),
         };
-        let regime = update_regime(cx, &flight, vector(w, 12), w[1], (1 + w[0]) << SPECIES_SHIFT);
+        let size = SIZE_ONE - 4096 + w[15];
+        let regime = update_regime(cx, &flight, vector(w, 12), w[1], (1 + w[0]) << SPECIES_SHIFT, size);
         integers([regime.state, regime.bits])
     };
 

@@ -3,7 +3,7 @@
 //! Changes of one constant or operator of a device function that must be noticed.
 
 /// Module, a line of it, the line changed, and a function of the table that shows it.
-pub(crate) const EDITS: [(&str, &str, &str, &str); 135] = [
+pub(crate) const EDITS: [(&str, &str, &str, &str); 136] = [
     ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
     ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
     ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
@@ -112,6 +112,7 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 135] = [
     ),
     ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
     ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
+    ("flight/regime", "speed2 * (speed2 *", "speed2 * (1.01 *", "regime_in_spin"),
     ("leaf/fly", "substeps.share * scene", "substeps.count * scene", "flight_advance"),
     ("terrain/litter", "column - 1u <", "column <", "litter_shares"),
     ("terrain/litter", "right * near", "left * near", "litter_shares"),

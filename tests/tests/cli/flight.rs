@@ -25,7 +25,7 @@ const KEYS: [&str; 14] = [
     "drift_per_drop_height",
     "regimes",
 ];
-const REGIMES: [&str; 6] = ["steady", "flutter", "tumble", "chaotic", "helical", "spiral"];
+const REGIMES: [&str; 7] = ["steady", "flutter", "tumble", "chaotic", "helical", "spiral", "autorotation"];
 /// A disc of paper that tumbles.
 const DISC: [&str; 7] = ["flight", "--shape", "disc", "--size", "0.035", "--areal-density", "0.07"];
 
@@ -244,6 +244,16 @@ fn pictures_are_drawn() {
     assert_eq!(contents(there.path()).len(), 1, "nothing but the picture is left");
 }
 
+/// Winged seeds from 1.8 m, let go any way round, of which the first 0.6 m do not count.
+#[test]
+fn winged_seeds_autorotate() {
+    let report = json(&["flight", "--species", "samara", "--release", "random"]);
+    check(&report);
+    assert!((0.9..1.3).contains(&number(&report, "mean_descent_m_s")), "{report}");
+    assert!((11.0..20.0).contains(&number(&report, "turns_per_s")), "{report}");
+    assert!(number(&report["regimes"], "autorotation") > 0.9, "{report}");
+}
+
 /// Drops of two pieces as `windfall flight` found them, so that the comparison must find the same again.
 #[test]
 fn a_comparison_sets_both_side_by_side() {
@@ -296,7 +306,7 @@ fn a_comparison_sets_both_side_by_side() {
 fn comparisons_that_cannot_be_made_are_refused() {
     let there = folder();
     let head = "shape,size_m,areal_density_kg_m2,release,mean_descent_m_s\n";
-    file(&there, "flat.csv", &format!("{head}disc,0.05,0.07,flat,1\n"));
+    file(&there, "flat.csv", format!("{head}disc,0.05,0.07,flat,1\n"));
     file(&there, "none.csv", head);
     let refuse = |arguments: &[&str], essentials: &[&str]| {
         assert_refused(&there, &[&["flight", "compare"], arguments].concat(), essentials);

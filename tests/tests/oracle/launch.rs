@@ -6,7 +6,8 @@ use crate::common::{GRAVITY, attitude, position, still_scene};
 use glam::DVec3;
 use windfall_core::arith::Vec3;
 use windfall_core::device::flight::regime::{
-    REGIME_CHAOTIC, REGIME_FLUTTER, REGIME_STEADY, REGIME_TUMBLE, regime_after, regime_of,
+    REGIME_AUTOROTATION, REGIME_CHAOTIC, REGIME_FLUTTER, REGIME_SPIRAL, REGIME_STEADY, REGIME_TUMBLE,
+    regime_after, regime_in_spin, regime_of,
 };
 use windfall_core::device::leaf::fly::flight_of;
 use windfall_core::device::leaf::record::{
@@ -150,4 +151,20 @@ fn regimes_are_told_from_motion() {
         [flow, DVec3::new(0.1, 0.0, 12.0 * way), path]
     };
     assert_eq!(classified(&mixed), REGIME_CHAOTIC, "now this way, now that");
+}
+
+/// A seed of 4 cm whose tips go round at twice its descent autorotates, a smaller one as fast in spin or one about an axis across its fall
+/// does not; what swings or turns over keeps its name.
+#[test]
+fn an_autorotation_is_told_by_its_tips() {
+    let flow = Vec3::new(0.1, -0.99, 0.1);
+    let about_fall = Vec3::new(-9.0, 89.1, -9.0);
+    for idle in [REGIME_STEADY, REGIME_SPIRAL] {
+        assert_eq!(regime_in_spin(idle, flow, about_fall, 0.02), REGIME_AUTOROTATION, "1.8 m/s at its tips");
+        assert_eq!(regime_in_spin(idle, flow, about_fall, 0.012), idle, "1.08 m/s at its tips");
+        assert_eq!(regime_in_spin(idle, flow, Vec3::new(89.1, 9.0, 0.0), 0.02), idle, "about an axis across");
+    }
+    for lively in [REGIME_FLUTTER, REGIME_TUMBLE, REGIME_CHAOTIC] {
+        assert_eq!(regime_in_spin(lively, flow, about_fall, 0.02), lively, "not idle");
+    }
 }

@@ -18,7 +18,7 @@
 @group(1) @binding(7) var<storage, read> wind_left: array<f32>;
 
 // Regimes of bodies in the order of the motions that look like them.
-const LIKE = array<u32, 6>(0u, 3u, 1u, 2u, 4u, 5u);
+const LIKE = array<u32, 7>(0u, 3u, 1u, 2u, 4u, 5u, CONE_KIND);
 // Place of the cone spiral among the kinds of motion.
 const CONE_KIND: u32 = 6u;
 // Farthest that a leaf goes in a second; beyond it was put elsewhere.
@@ -61,7 +61,7 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
                 let primitive = leaf_primitive(place.bits);
                 let regime = leaf_regime(place.bits);
                 let own = select(min(primitive, CONE_KIND), CONE_KIND, primitive == CONE_SPIRAL);
-                let kind = select(own, LIKE[min(regime, 5u)], primitive == AERODYNAMIC);
+                let kind = select(own, LIKE[min(regime, 6u)], primitive == AERODYNAMIC);
                 color = paint.palette[kind].rgb;
             }
         }

@@ -19,14 +19,16 @@ fn sample_at(leaf: u32, age: u32) -> TrailSample {
     return ring[leaf * count + (trail.newest + count - min(age, count - 1u)) % count];
 }
 
-// Colours of the regimes of bodies, as `windfall flight` draws them: steady, flutter, tumble, chaotic, helical, spiral.
-const REGIMES = array<vec3<f32>, 6>(
+// Colours of the regimes of bodies, as `windfall flight` draws them: steady, flutter, tumble, chaotic, helical, spiral,
+// autorotation.
+const REGIMES = array<vec3<f32>, 7>(
     vec3(0.19, 0.22, 0.24),
     vec3(0.02, 0.20, 0.43),
     vec3(0.73, 0.27, 0.01),
     vec3(0.49, 0.04, 0.03),
     vec3(0.04, 0.26, 0.08),
     vec3(0.22, 0.08, 0.37),
+    vec3(0.76, 0.17, 0.39),
 );
 
 // NO_PLACE, JOINED or BROKEN.
@@ -93,7 +95,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     }
     let regime = sample_at(leaf, age).joint_regime >> JOINT_REGIME_SHIFT;
     if regime > 0u {
-        out.color = vec4(REGIMES[min(regime, 6u) - 1u] * 1.5, out.color.a);
+        out.color = vec4(REGIMES[min(regime, 7u) - 1u] * 1.5, out.color.a);
     }
     out.across = side;
     return out;

@@ -16,7 +16,7 @@ use clap::{Args, Subcommand};
 /// Options of `windfall flight`.
 ///
 /// Every number is an average over drops of what each does from 0.6 m below its release to the ground. Turns are half the
-/// peaks of the area seen from above: turns of what tumbles, swings of what flutters. A drop's regime is the one that
+/// peaks of the area seen from above: turns of what tumbles, swings of what flutters; of what autorotates, turns about the vertical. A drop's regime is the one that
 /// lasted longest since it was first seen to turn or swing a few times; one that tumbles for less than three quarters of
 /// that time counts as chaotic.
 #[derive(Clone, Debug, Args)]

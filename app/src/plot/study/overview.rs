@@ -43,6 +43,7 @@ const MOTION_COLORS: [RGBColor; MOTION_COUNT] = [
     RGBColor(186, 60, 48),
     RGBColor(62, 138, 84),
     RGBColor(126, 84, 162),
+    RGBColor(226, 116, 168),
 ];
 
 /// The places of the first variation's values on the axis, and what they are called.

@@ -143,8 +143,16 @@ fn drops_are_averaged() {
     near(summary.p90_m_s, 0.46, 1e-12, "between the fourth and the fifth");
     near(summary.rms_vz_m_s, 0.6, 1e-12, "mean");
     near(summary.drift, 0.03, 1e-12, "mean");
-    assert_eq!(summary.regimes.to_array(), [0.0, 0.0, 0.6, 0.2, 0.2, 0.0], "shares of drops");
+    assert_eq!(summary.regimes.to_array(), [0.0, 0.0, 0.6, 0.2, 0.2, 0.0, 0.0], "shares of drops");
     let one = DescentSummary::of(&drops[..1]).expect("one drop");
     assert_eq!((one.sd_between_drops, one.p10_m_s, one.p90_m_s), (0.0, 0.5, 0.5), "one drop varies not");
     assert_eq!(DescentSummary::of(&[]), None, "no drops");
+}
+
+#[test]
+fn an_autorotation_turns_about_the_vertical() {
+    let attitude = |t: f64| DQuat::from_rotation_y(-TAU * 14.0 * t) * DQuat::from_rotation_x(0.2);
+    let drop = watch(|_| DVec3::new(0.0, -1.0, 0.0), attitude, Regime::Autorotation);
+    near(drop.turns_per_s, 14.0, 1e-6, "turns a second, either way round");
+    assert_eq!(drop.regime, Regime::Autorotation, "as labelled all the way");
 }

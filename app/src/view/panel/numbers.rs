@@ -4,7 +4,7 @@
 
 use egui::{Grid, Label, RichText, Ui};
 use windfall_core::Contract;
-use windfall_core::device::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::{REGIME_COUNT, REGIME_NAMES};
 use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
 
 use super::{Action, PanelInput, compare, graph, style};
@@ -23,13 +23,14 @@ const MOTIONS: [&str; PRIMITIVE_COUNT] = [
 ];
 
 /// Names of what bodies in the air do, in the order of the regimes.
-const REGIMES: [&str; 6] = [
+const REGIMES: [&str; REGIME_COUNT as usize] = [
     "bodies that come down steadily",
     "bodies that swing from side to side",
     "bodies that turn end over end",
     "bodies that swing and turn over by turns",
     "bodies whose swings go round",
     "bodies that wind down",
+    "bodies that go round as they fall, like winged seeds",
 ];
 
 /// Backend and adapter.

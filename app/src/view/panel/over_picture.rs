@@ -114,7 +114,11 @@ fn measure_legend(ui: &Ui, overlays: &Overlays, corner: egui::Pos2) -> Rect {
         Some((title, end)) => scale_legend(ui, "legend", title, ["0", &end], corner),
         None => {
             let others = [("at rest", RESTING), ("on its twig", ATTACHED)];
-            kind_legend(ui, "legend", MOTIONS.iter().chain(&others).copied(), corner)
+            let named = |(name, color)| {
+                // Winged seeds that autorotate have its colour.
+                (if name == "cone spiral" { "cone spiral, autorotation" } else { name }, color)
+            };
+            kind_legend(ui, "legend", MOTIONS.iter().chain(&others).copied().map(named), corner)
         }
     }
 }

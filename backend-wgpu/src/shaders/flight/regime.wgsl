@@ -3,6 +3,7 @@
 // twin: core/src/device/flight/regime.rs
 // The regime of a fall, classified by a body's last four events.
 #import prelude
+#import arith/vector
 
 fn octant(x: f32, z: f32) -> u32 {
     let ax = max(x, -x);
@@ -113,4 +114,12 @@ fn regime_of(state: u32) -> u32 {
     let swinging = select(REGIME_FLUTTER, REGIME_HELICAL, goes_round);
     let lively = select(REGIME_CHAOTIC, swinging, only_swings);
     return select(select(lively, REGIME_TUMBLE, tumbles), quiet, is_quiet);
+}
+
+fn regime_in_spin(regime: u32, flow: vec3<f32>, spin: vec3<f32>, reach_m: f32) -> u32 {
+    let round = vec3_dot(spin, flow) * reach_m;
+    let speed2 = vec3_dot(flow, flow);
+    let goes_round = speed2 * (speed2 * TIP_SPEED_RATIO_SQUARED) < round * round;
+    let is_idle = regime == REGIME_STEADY || regime == REGIME_SPIRAL;
+    return select(regime, REGIME_AUTOROTATION, is_idle && goes_round);
 }

@@ -105,15 +105,17 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>, is_amon
     return Flown(end, touches && energy < scene.litter.rest_m2_s2, is_wet);
 }
 
-fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32) -> Regime {
+fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32, size: u32) -> Regime {
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
     let now = step_block.index;
     let rate = scene.ticks_per_step_q16;
     let ticks = mul_q16(now + 1u, rate) - mul_q16(now, rate);
-    let idle_timeout = u32(scene.bodies[leaf_species(bits)].idle_timeout_ticks);
+    let species = leaf_species(bits);
+    let idle_timeout = u32(scene.bodies[species].idle_timeout_ticks);
     let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout);
-    return Regime(next, with_regime(bits, regime_of(next)));
+    let reach_m = max(scene.bodies[species].half_along_m, scene.bodies[species].half_across_m) * size_ratio(size);
+    return Regime(next, with_regime(bits, regime_in_spin(regime_of(next), flow, flight.spin, reach_m)));
 }
 
 fn count_calm_steps(bits: u32, is_calm: bool, is_wet: bool) -> u32 {
@@ -197,9 +199,11 @@ fn leaf_fly(leaf: u32) {
     let wind = wind_at(start.position);
     let is_among_solids = scene.solids.count != 0u &&
         may_meet_solids(start.position, longest_way_squared(start.velocity, wind));
-    let flown = flight_advance(start, places[leaf].bits, schedules[leaf].size, wind, is_among_solids);
+    let size = schedules[leaf].size;
+    let flown = flight_advance(start, places[leaf].bits, size, wind, is_among_solids);
     flight_write(leaf, flown.flight);
-    let regime = update_regime(flown.flight, wind, regime_state(identities[leaf].fall_time), places[leaf].bits);
+    let before = regime_state(identities[leaf].fall_time);
+    let regime = update_regime(flown.flight, wind, before, places[leaf].bits, size);
     identities[leaf].fall_time = regime.state;
     let bits = count_calm_steps(regime.bits, flown.is_calm, flown.is_wet);
     places[leaf].bits = bits;

@@ -7,7 +7,8 @@
 use super::at_rest::{REST_SHARE_SQUARED, leaf_at_rest, slides_down, wind_moves};
 use super::lie::{STREAM_LYING, flatten_to, leaf_rest, lying_tilt, own_friction, own_raise, reach_down};
 use super::record::{
-    Drift, body_spin, body_spin_words, flies, regime_state, touch_steps, with_regime, with_touch_steps,
+    Drift, body_spin, body_spin_words, flies, regime_state, size_ratio, touch_steps, with_regime,
+    with_touch_steps,
 };
 use super::settle::leaf_land;
 use super::strike::{held_at_rest, is_borne};
@@ -20,7 +21,7 @@ use crate::context::Context;
 use crate::device::flight::body::{LeafBody, body_of, body_row};
 use crate::device::flight::contact::{Contacts, OverGround};
 use crate::device::flight::rates::FlightMotion;
-use crate::device::flight::regime::{regime_after, regime_of};
+use crate::device::flight::regime::{regime_after, regime_in_spin, regime_of};
 use crate::device::flight::runge_kutta::{MAX_SUBSTEPS, Substeps, flight_step, substep_count};
 use crate::device::flight::strike::AmongSolids;
 use crate::device::solid::near::may_meet_solids;
@@ -185,6 +186,7 @@ pub fn update_regime<R: Real>(
     wind: Vec3<R>,
     state: R::Word,
     bits: R::Word,
+    size: R::Word,
 ) -> Regime<R::Word> {
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
@@ -193,7 +195,10 @@ pub fn update_regime<R: Real>(
     let ticks = mul_q16(now.wrapping_add(1), rate).wrapping_sub(mul_q16(now, rate));
     let [_, _, idle_timeout, _] = body_row(cx, bits, BODY_LOAD_ROW);
     let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout.to_whole());
-    Regime { state: next, bits: with_regime(bits, regime_of(next)) }
+    let [half_along_m, half_across_m, _, _] = body_row(cx, bits, 1);
+    let reach_m = half_along_m.max(half_across_m) * size_ratio(size);
+    let regime = regime_in_spin(regime_of(next), flow, flight.spin, reach_m);
+    Regime { state: next, bits: with_regime(bits, regime) }
 }
 
 /// Bits of bodies with the steps for which they have been calm. Water holds those that touch it at once.
@@ -304,7 +309,7 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     };
     flight_write(leaf, flight);
     let before = regime_state(leaf.identity.fall_time);
-    let regime = update_regime(cx, &flight, wind, before, leaf.place.bits);
+    let regime = update_regime(cx, &flight, wind, before, bits, size);
     leaf.identity.fall_time = regime.state;
     leaf.place.bits = count_calm_steps(cx, regime.bits, is_calm, is_wet);
     if flight_ends(cx, leaf.place.bits, flight.position) {
