@@ -116,7 +116,8 @@ pub(super) fn write_plain(out: &mut impl Write, plain: &Plain<'_>) -> io::Result
 /// Writes the pictures of all kinds of leaves; `destination` is the folder that errors name.
 pub(super) fn write_pictures(folder: &Path, destination: &Path, foliage: &Foliage) -> anyhow::Result<()> {
     let folder = folder.join(PICTURES);
-    fs::create_dir(&folder).map_err(WriteError::at(destination))?;
+    // A run that ended while it wrote them may have left some.
+    fs::create_dir_all(&folder).map_err(WriteError::at(destination))?;
     foliage.pictures.par_iter().try_for_each(|picture| {
         let saved = picture.image.save(folder.join(format!("{}.png", picture.name)));
         Ok(saved.map_err(|error| WriteError::at(destination)(io::Error::other(error)))?)
