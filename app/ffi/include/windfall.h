@@ -78,7 +78,7 @@ typedef struct WindfallLeaf {
   uint32_t species;
   // 0 not let go yet, 1 on a branch, 2 in the air, 3 at rest.
   uint32_t state;
-  // 0 none, then the primitive motions in their order, then the regimes of bodies: steady, flutter, tumble, chaotic, helical, spiral.
+  // 0 none, then the primitive motions in their order, then the regimes of bodies: steady, flutter, tumble, chaotic, helical, spiral, autorotation.
   uint32_t motion;
 } WindfallLeaf;
 
