@@ -7,7 +7,7 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::plot::picture::{Area, Drawn, INK, UNIT, font};
+use crate::plot::picture::{Area, Drawn, INK, UNIT, font, heading};
 use crate::study::figure::{CLOSE, Figure, is_close};
 
 /// Size of the picture in pixels.
@@ -32,14 +32,8 @@ pub(crate) struct Pair {
 
 /// Draws a panel for each figure.
 pub(crate) fn draw(area: &Area<'_>, name: &str, drops: u32, pairs: &[Pair]) -> Drawn {
-    let unit = UNIT as i32;
     let (head, body) = area.split_vertically(HEAD * UNIT);
-    let style = font(30).pos(Pos::new(HPos::Left, VPos::Center));
-    head.draw(&Text::new(
-        format!("{name}: simulated over measured, {drops} drops a piece"),
-        (28 * unit, 36 * unit),
-        style,
-    ))?;
+    heading(&head, format!("{name}: simulated over measured, {drops} drops a piece"), 30)?;
     let panels = body.split_evenly((2, 3));
     for (area, figure) in panels.iter().zip(Figure::ALL) {
         let own: Vec<_> = pairs.iter().filter(|pair| pair.figure == figure).collect();

@@ -7,6 +7,7 @@ use image::RgbImage;
 use image::imageops::{FilterType, resize};
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
 use crate::files::OutputFile;
@@ -27,6 +28,14 @@ pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 /// Text of a size in pixels of the finished picture.
 pub(crate) fn font(size: u32) -> TextStyle<'static> {
     (FONT, size * UNIT).into_font().color(&INK)
+}
+
+/// Writes the heading of a plot into the strip above it.
+pub(crate) fn heading(strip: &Area<'_>, text: String, size: u32) -> Drawn {
+    let unit = UNIT as i32;
+    let style = font(size).pos(Pos::new(HPos::Left, VPos::Center));
+    strip.draw(&Text::new(text, (28 * unit, 36 * unit), style))?;
+    Ok(())
 }
 
 /// The pixel nearest to a coordinate.

@@ -7,6 +7,7 @@ use windfall_core::leaf::LeafState;
 use windfall_core::scene::{Gusts, MeanSpeed, Source, SourceShape, Turbulence, WindParameters};
 use windfall_core::scene::{Release as Schedule, Species};
 
+use super::descent::{DescentSummary, Watch};
 use super::experiment::follow;
 use super::sample::Sample;
 use crate::run::backend::Device;
@@ -33,6 +34,25 @@ pub(crate) struct Drops<'a> {
 }
 
 impl Drops<'_> {
+    /// Drops them all, and summarises what each does from `settle_m` below its release on; `None` if none falls farther.
+    ///
+    /// # Errors
+    /// Errors of [`Drops::run`].
+    pub(crate) fn summary(
+        &self,
+        settle_m: f64,
+        device: &Device,
+        cancel: &Cancel,
+    ) -> anyhow::Result<Option<DescentSummary>> {
+        let mut watches = vec![Watch::new(settle_m); self.count as usize];
+        self.run(device, cancel, &mut |drop, sample| {
+            watches[drop].add(sample);
+            Ok(())
+        })?;
+        let numbers: Vec<_> = watches.iter().filter_map(Watch::finish).collect();
+        Ok(DescentSummary::of(&numbers))
+    }
+
     /// The drops as a scene.
     fn scene(&self) -> Scene {
         let wind = WindParameters {

@@ -17,8 +17,8 @@ const DRY: Aerodynamics = Aerodynamics {
 const FEATHER: Aerodynamics =
     Aerodynamics { mass_offset: (-0.4, 0.0), curl: 0.3, twist: 0.3, ..Aerodynamics::FLAT };
 
-/// Most of the mass is in the nut at one end: within a metre of any release it spins like a rotor, as the seeds of maples do, at 1 m/s and 14 turns
-/// a second. Curl, twist and the drag of its edge are more than a seed has: they stand in for the torque of a twisted blade in a flow along it.
+/// Most of the mass is in the nut at one end: let go any way round, nine in ten spin like a rotor within a metre and all within two, as the seeds of maples
+/// do, at 1 m/s and 14 turns a second. Curl, twist and the drag of its edge are more than a seed has: they stand in for the torque of a twisted blade in a flow along it.
 const SAMARA: Aerodynamics = Aerodynamics {
     planform: Some(Planform { aspect: 2.7, extent: 1.03 }),
     mass_offset: (-0.7, -0.195),

@@ -289,7 +289,7 @@ fn a_comparison_sets_both_side_by_side() {
     );
     let plot = image::open(there.path().join("plot.png")).expect("a picture").to_rgb8();
     assert_eq!(plot.dimensions(), (1800, 1180), "of the plot");
-    let is_orange = |pixel: &&image::Rgb<u8>| pixel.0[0] > 180 && pixel.0[2] < 110;
+    let is_orange = |&&image::Rgb([red, _, blue]): &&image::Rgb<u8>| red > 180 && blue < 110;
     let orange = plot.pixels().filter(is_orange).count();
     assert!((300..1500).contains(&orange), "three dots and one of the legend: {orange} pixels");
     let table = fs::read_to_string(there.path().join("both.csv")).expect("a table");

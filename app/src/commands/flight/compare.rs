@@ -17,7 +17,7 @@ use crate::run::backend::{BackendArguments, Device};
 use crate::run::cancel::Cancel;
 use crate::run::parse::{png_file, whole};
 use crate::run::{progress, terminal};
-use crate::study::descent::{DescentSummary, SETTLE_M, Watch};
+use crate::study::descent::{DescentSummary, SETTLE_M};
 use crate::study::figure::{CLOSE, FIGURE_COUNT, Figure, is_close};
 use crate::study::regime::Regime;
 use crate::study::still_air::Drops;
@@ -133,13 +133,7 @@ fn drop_piece(
 ) -> anyhow::Result<DescentSummary> {
     let (count, seed) = (arguments.drops, arguments.seed);
     let drops = Drops { species: &row.piece.species, count, height_m: row.height_m, seed };
-    let mut watches = vec![Watch::new(SETTLE_M); count as usize];
-    drops.run(device, cancel, &mut |drop, sample| {
-        watches[drop].add(sample);
-        Ok(())
-    })?;
-    let numbers: Vec<_> = watches.iter().filter_map(Watch::finish).collect();
-    let Some(summary) = DescentSummary::of(&numbers) else {
+    let Some(summary) = drops.summary(SETTLE_M, device, cancel)? else {
         bail!("{}:{}: no drop fell {SETTLE_M} m and on from there", arguments.measured.display(), row.line);
     };
     Ok(summary)

@@ -16,7 +16,6 @@ use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
-use crate::study::descent::{DescentSummary, Watch};
 use crate::study::regime::Regime;
 use crate::study::still_air::Drops;
 
@@ -102,13 +101,8 @@ fn spot(size_m: f32, density: f32, count: u32, seed: u64, cancel: &Cancel) -> an
     let height = HEIGHT_M.0 + HEIGHT_M.1 * size;
     #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
     let drops = Drops { species: &piece.species, count, height_m: height as f32, seed };
-    let mut watches = vec![Watch::new(SETTLED * height); count as usize];
-    drops.run(&BackendArguments::default().cpu(), cancel, &mut |drop, sample| {
-        watches[drop].add(sample);
-        Ok(())
-    })?;
-    let numbers: Vec<_> = watches.iter().filter_map(Watch::finish).collect();
-    Ok(DescentSummary::of(&numbers).map(|summary| Spot {
+    let summary = drops.summary(SETTLED * height, &BackendArguments::default().cpu(), cancel)?;
+    Ok(summary.map(|summary| Spot {
         reynolds: summary.mean_descent_m_s * size / VISCOSITY_M2_S,
         inertia: std::f64::consts::PI * f64::from(density) / (64.0 * AIR_DENSITY * size),
         shares: summary.regimes.to_array(),

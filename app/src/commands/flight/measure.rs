@@ -9,7 +9,7 @@ use anyhow::bail;
 use clap::Args;
 use serde::Serialize;
 
-use super::piece::{PieceArguments, Release};
+use super::piece::{HEIGHTS_M, PieceArguments, Release};
 use super::track_file::TrackFile;
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
@@ -18,9 +18,6 @@ use crate::run::terminal;
 use crate::study::descent::{DescentSummary, DropNumbers, SETTLE_M, Watch};
 use crate::study::regime::{PerRegime, Regime};
 use crate::study::still_air::Drops;
-
-/// Lowest and highest release in m.
-const HEIGHTS_M: std::ops::RangeInclusive<f32> = 0.8..=50.0;
 
 /// Options of a measurement.
 #[derive(Clone, Debug, Args)]

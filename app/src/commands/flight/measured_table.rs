@@ -9,7 +9,7 @@ use windfall_core::read_regular_file;
 use windfall_core::scene::Species;
 use windfall_core::scene::limits::AREAL_DENSITY_KG_M2;
 
-use super::piece::{Piece, Release};
+use super::piece::{HEIGHTS_M, Piece, Release};
 use crate::study::figure::{FIGURE_COUNT, Figure};
 
 /// Longest table in bytes, and most rows.
@@ -147,7 +147,9 @@ impl Fields<'_> {
                 release.escape_debug()
             ))
         })?;
-        let height_m = self.number("height_m", "0.8 to 50", |height| (0.8..=50.0).contains(&height))?;
+        let (low, high) = (f64::from(*HEIGHTS_M.start()), f64::from(*HEIGHTS_M.end()));
+        let allowed = format!("{} to {}", HEIGHTS_M.start(), HEIGHTS_M.end());
+        let height_m = self.number("height_m", &allowed, |height| (low..=high).contains(&height))?;
         let mut figures = [None; FIGURE_COUNT];
         for (figure, measured) in Figure::ALL.into_iter().zip(&mut figures) {
             *measured = self.number(figure.column(), "a number from 0 on", |number| number >= 0.0)?;

@@ -16,21 +16,22 @@ use clap::{Args, Subcommand};
 /// Options of `windfall flight`.
 ///
 /// Every number is an average over drops of what each does from 0.6 m below its release to the ground. Turns are half the
-/// peaks of the area seen from above: turns of what tumbles, swings of what flutters; of what autorotates, turns about the vertical. A drop's regime is the one that
+/// peaks of the area seen from above: turns of what tumbles, swings of what flutters; of what autorotates they are those
+/// about the vertical. A drop's regime is the one that
 /// lasted longest since it was first seen to turn or swing a few times; one that tumbles for less than three quarters of
 /// that time counts as chaotic.
 #[derive(Clone, Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct Arguments {
     #[command(subcommand)]
-    figure: Option<Figure>,
+    task: Option<Task>,
     #[command(flatten)]
     measure: measure::Arguments,
 }
 
 /// Comparisons and pictures.
 #[derive(Clone, Debug, Subcommand)]
-enum Figure {
+enum Task {
     /// Drop the pieces of a table of measured drops, and set both side by side.
     Compare(compare::Arguments),
     /// Draw how discs of many sizes and masses fall, beside the boundaries that were measured.
@@ -45,10 +46,10 @@ enum Figure {
 /// # Errors
 /// Errors of the command.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    match &arguments.figure {
+    match &arguments.task {
         None => measure::run(&arguments.measure),
-        Some(Figure::Compare(figure)) => compare::run(figure),
-        Some(Figure::Diagram(figure)) => diagram::run(figure),
-        Some(Figure::Tracks3d(figure)) => tracks3d::run(figure),
+        Some(Task::Compare(options)) => compare::run(options),
+        Some(Task::Diagram(options)) => diagram::run(options),
+        Some(Task::Tracks3d(options)) => tracks3d::run(options),
     }
 }

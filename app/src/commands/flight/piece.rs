@@ -16,6 +16,9 @@ use super::outline;
 use crate::leaves::{load_scene, species_of_folder};
 use crate::run::scene_arguments::OutsideArguments;
 
+/// Lowest and highest release in m.
+pub(super) const HEIGHTS_M: std::ops::RangeInclusive<f32> = 0.8..=50.0;
+
 /// Hold of a piece before it is let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Release {

@@ -7,7 +7,7 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font};
+use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, heading};
 
 /// Widths in pixels of the picture of one point, and of a panel among others.
 const WIDTH: u32 = 900;
@@ -145,14 +145,12 @@ pub(super) fn draw_one(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f
 pub(super) fn draw_grid(
     area: &Area<'_>,
     frame: &Frame,
-    heading: &str,
+    title: &str,
     columns: u32,
     panels: &[(&str, &[(f64, f64)])],
 ) -> Drawn {
     let (head, body) = area.split_vertically(HEAD * UNIT);
-    let unit = UNIT as i32;
-    let style = font(28).pos(Pos::new(HPos::Left, VPos::Center));
-    head.draw(&Text::new(heading.to_owned(), (24 * unit, 36 * unit), style))?;
+    heading(&head, title.to_owned(), 28)?;
     let (width, height) = frame.grid_size(columns, u32::try_from(panels.len())?);
     let (maps, bar) = body.split_horizontally((width - BAR) * UNIT);
     let areas = maps.split_evenly((panels.len().div_ceil(columns as usize), columns as usize));

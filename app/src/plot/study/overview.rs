@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::heat_map::short;
 use super::page::motion_name;
-use crate::plot::picture::{Area, Drawn, INK, UNIT, font};
+use crate::plot::picture::{Area, Drawn, INK, UNIT, font, heading};
 use crate::study::landing::MOTION_COUNT;
 use crate::study::point::Point;
 use crate::study::statistics::Distribution;
@@ -100,10 +100,8 @@ pub(super) fn draw(
     let of_curve = |curve: usize| -> Vec<&Summary> { summaries.iter().skip(curve).step_by(curves).collect() };
     let (head, body) = area.split_vertically(64 * UNIT);
     let drops = summaries.iter().map(|summary| summary.drops).max().unwrap_or(0);
-    let unit = UNIT as i32;
     let spread = if curves <= MOST_BANDS { "median and middle 80 % of" } else { "medians of" };
-    let style = font(30).pos(Pos::new(HPos::Left, VPos::Center));
-    head.draw(&Text::new(format!("{name}: {spread} {drops} drops"), (28 * unit, 36 * unit), style))?;
+    heading(&head, format!("{name}: {spread} {drops} drops"), 30)?;
     let (panels, foot) = body.split_vertically((SIZE.1 - 64 - 60) * UNIT);
     let areas = panels.split_evenly((2, 3));
     for (index, (area, (title, in_units))) in areas.iter().zip(PANELS).enumerate() {

@@ -7,6 +7,7 @@ use egui::{
     pos2, vec2,
 };
 use glam::Vec3;
+use windfall_core::motion::Primitive;
 use windfall_core::scene::Object;
 use windfall_render::{ATTACHED, MOTIONS, RESTING, population_bytes, shade_bytes};
 
@@ -113,12 +114,10 @@ fn measure_legend(ui: &Ui, overlays: &Overlays, corner: egui::Pos2) -> Rect {
     match overlays.scale() {
         Some((title, end)) => scale_legend(ui, "legend", title, ["0", &end], corner),
         None => {
-            let others = [("at rest", RESTING), ("on its twig", ATTACHED)];
-            let named = |(name, color)| {
-                // Winged seeds that autorotate have its colour.
-                (if name == "cone spiral" { "cone spiral, autorotation" } else { name }, color)
-            };
-            kind_legend(ui, "legend", MOTIONS.iter().chain(&others).copied().map(named), corner)
+            // Bodies have the colours of the motions like theirs.
+            let (_, cone_spiral) = MOTIONS[Primitive::ConeSpiral.index()];
+            let others = [("autorotation", cone_spiral), ("at rest", RESTING), ("on its twig", ATTACHED)];
+            kind_legend(ui, "legend", MOTIONS.iter().chain(&others).copied(), corner)
         }
     }
 }

@@ -31,7 +31,7 @@ crate::shared_constants! {
     /// Number of regimes.
     pub const REGIME_COUNT: u32 = 7;
     /// Square of the least speed of an autorotating body's tips, going round the direction of its fall, over that of the fall: maple
-    /// seeds reach 1.8, flat leaves 1.0 for moments.
+    /// seeds reach 1.8, other leaves 1 for less than a thousandth of their fall.
     pub const TIP_SPEED_RATIO_SQUARED: f32 = 1.21;
     /// Place in the state of the face that meets the flow.
     pub const SIDE_SHIFT: u32 = 0;
