@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The plot of how discs fall.
+//! The plot of how discs and strips fall.
 
 use std::f64::consts::TAU;
 
@@ -13,19 +13,32 @@ use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
 use crate::study::regime::{COUNT, Regime};
 
 /// Size of the picture in pixels.
-pub(crate) const SIZE: (u32, u32) = (1600, 1120);
+pub(crate) const SIZE: (u32, u32) = (1600, 1540);
+/// Heights in pixels of what is drawn of discs, and of strips below it.
+const PARTS: [u32; 2] = [1054, 420];
 /// Reynolds numbers that are shown.
 const REYNOLDS: std::ops::Range<f64> = 60.0..40_000.0;
 /// Dimensionless moments of inertia that are shown.
 const INERTIA: std::ops::Range<f64> = 0.0014..0.3;
+/// Froude numbers of strips that are shown.
+const FROUDE: std::ops::Range<f64> = 0.2..1.8;
+/// Aspect ratios of strips that are shown.
+const ASPECT: std::ops::Range<f64> = 0.5..11.5;
+/// Froude number at which strips begin to tumble, with its uncertainty.
+///
+/// # Source
+/// Belmonte, Eisenberg and Moses, "From flutter to tumble: inertial drag and Froude similarity in falling paper",
+/// Phys. Rev. Lett. 81 (1998), abstract.
+const STRIPS_TUMBLE: [f64; 2] = [0.67, 0.05];
 /// Radius of a pie in pixels.
 const PIE: u32 = 16;
 
-/// A disc that has been dropped.
+/// A piece that has been dropped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
-    pub(crate) reynolds: f64,
-    pub(crate) inertia: f64,
+    /// Place in its chart: Reynolds number and dimensionless moment of inertia of a disc, Froude number and aspect
+    /// ratio of a strip.
+    pub(crate) place: (f64, f64),
     /// Shares of drops in the order of [`Regime::ALL`].
     pub(crate) shares: [f64; COUNT],
 }
@@ -38,10 +51,17 @@ impl Spot {
     }
 }
 
-/// Draws discs over the measured boundaries.
-pub(crate) fn draw(area: &Area<'_>, drops: u32, spots: &[Spot]) -> Drawn {
-    let (upper, lower) = area.split_vertically((SIZE.1 - 66) * UNIT);
-    let mut chart = ChartBuilder::on(&upper)
+/// Draws discs and strips over the measured boundaries.
+pub(crate) fn draw(area: &Area<'_>, drops: u32, discs: &[Spot], strips: &[Spot]) -> Drawn {
+    let (upper, below) = area.split_vertically(PARTS[0] * UNIT);
+    let (middle, lower) = below.split_vertically(PARTS[1] * UNIT);
+    draw_discs(&upper, discs)?;
+    draw_strips(&middle, area, strips)?;
+    legend(&lower, drops)
+}
+
+fn draw_discs(area: &Area<'_>, spots: &[Spot]) -> Drawn {
+    let mut chart = ChartBuilder::on(area)
         .margin(28 * UNIT)
         .caption("How discs fall: Windfall and the boundaries of Field et al. (1997)", font(36))
         .x_label_area_size(72 * UNIT)
@@ -77,12 +97,49 @@ pub(crate) fn draw(area: &Area<'_>, drops: u32, spots: &[Spot]) -> Drawn {
         let style = font(26).color(&shade).pos(Pos::new(HPos::Left, VPos::Center));
         chart.draw_series([Text::new(text, at, style)])?;
     }
-    let is_shown = |spot: &&Spot| REYNOLDS.contains(&spot.reynolds) && INERTIA.contains(&spot.inertia);
+    let is_shown = |spot: &&Spot| REYNOLDS.contains(&spot.place.0) && INERTIA.contains(&spot.place.1);
     for spot in spots.iter().filter(is_shown) {
-        let at = chart.backend_coord(&(spot.reynolds, spot.inertia));
-        pie(area, at, spot)?;
+        pie(area, chart.backend_coord(&spot.place), spot)?;
     }
-    legend(&lower, drops)
+    Ok(())
+}
+
+/// Draws strips into a part of the whole picture, in whose pixels pies have their places.
+fn draw_strips(part: &Area<'_>, whole: &Area<'_>, spots: &[Spot]) -> Drawn {
+    let mut chart = ChartBuilder::on(part)
+        .margin(28 * UNIT)
+        .caption("Strips, and the end of fluttering after Belmonte et al. (1998)", font(36))
+        .x_label_area_size(72 * UNIT)
+        .y_label_area_size(104 * UNIT)
+        .build_cartesian_2d(FROUDE, ASPECT)?;
+    let [tumble, uncertainty] = STRIPS_TUMBLE;
+    let between = |regime, from, to| {
+        let corners = [(from, ASPECT.start), (to, ASPECT.end)];
+        Rectangle::new(corners, color(regime).mix(0.13).filled())
+    };
+    chart.draw_series([
+        between(Regime::Flutter, FROUDE.start, tumble - uncertainty),
+        between(Regime::Tumble, tumble + uncertainty, FROUDE.end),
+    ])?;
+    chart
+        .configure_mesh()
+        .x_desc("Froude number, root of mass per area over density of the air times width")
+        .y_desc("length / width")
+        .axis_desc_style(font(25))
+        .label_style(font(22))
+        .axis_style(INK.stroke_width(UNIT))
+        .bold_line_style(INK.mix(0.12).stroke_width(UNIT))
+        .light_line_style(INK.mix(0.04).stroke_width(UNIT))
+        .set_all_tick_mark_size(6 * UNIT)
+        .x_label_formatter(&|froude| format!("{froude:.1}"))
+        .y_label_formatter(&|aspect| format!("{aspect:.0}"))
+        .draw()?;
+    let line = [(tumble, ASPECT.start), (tumble, ASPECT.end)];
+    chart.draw_series(LineSeries::new(line, INK.mix(0.75).stroke_width(3 * UNIT)))?;
+    for spot in spots {
+        pie(whole, chart.backend_coord(&spot.place), spot)?;
+    }
+    Ok(())
 }
 
 /// The measured regions, as far as their boundaries were measured.
@@ -164,7 +221,7 @@ fn legend(area: &Area<'_>, drops: u32) -> Drawn {
         area.draw(&Circle::new((x, row), 9 * UNIT, color(regime).filled()))?;
         area.draw(&Text::new(regime.name(), (x + 16 * unit, row), style.clone()))?;
     }
-    let text = format!("shares of {drops} drops a disc, let go any way round");
+    let text = format!("shares of {drops} drops each, let go any way round");
     area.draw(&Text::new(text, (990 * unit, row), style))?;
     Ok(())
 }

@@ -10,8 +10,8 @@ use crate::convert::{single, word};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
-    ASYMMETRY_CURL, DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, SPIN_BORNE_RAD, SWING_BORNE_RAD,
-    TICKS_PER_S, TWIST_TORQUE,
+    ASYMMETRY_CURL, DRAG_BORNE, NORMAL_BEND, NORMAL_EDGE, NORMAL_RISE, SPIN_BORNE_RAD, SWING_BORNE_RAD,
+    TANGENT_SPIN, TICKS_PER_S, TWIST_TORQUE,
 };
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Aerodynamics, FlightModel, Hold, STANDARD_GRAVITY_M_S2, Scene, Species};
@@ -54,9 +54,10 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
     let [air_x, air_z] = [(along, across), (across, along)]
         .map(|(sweeping, other)| added_inertia(sweeping, other) * air / (PI * radius * radius));
     // Angular rate, per speed, at which the flow swings the body about the axis that resists least.
-    let broadside = 0.5 * f64::from(body.edge_drag + DRAG_RISE - DRAG_BEND);
-    let lever = (broadside + f64::from(LIFT_EDGE)) * air * (offset.length() * radius + spread);
+    let broadside = f64::from(NORMAL_EDGE + NORMAL_RISE + NORMAL_BEND + 0.5 * body.edge_drag);
+    let lever = (broadside + f64::from(NORMAL_EDGE)) * air * (offset.length() * radius + spread);
     let swing = libm::sqrt((added + lever) / (inertia.x + air_x).min(inertia.z + air_z)) / SWING_BORNE_RAD;
+    let spun = f64::from(TANGENT_SPIN) * air * long / DRAG_BORNE;
     let dt = f64::from(scene.dt_s);
     let weight = areal / USUAL_AREAL_KG_M2 * f64::from(scene.gravity_m_s2 / STANDARD_GRAVITY_M_S2);
     let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(weight);
@@ -87,7 +88,7 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
         centroid_spread_m: [spread, ASYMMETRY_CURL * spread, spread].map(single),
         twist_spread_m: single(TWIST_TORQUE * air * spread),
         load_per_speed: single(dt * (broadside * air / DRAG_BORNE).max(swing)),
-        load_per_spin: single(dt * (swing * long + 1.0 / SPIN_BORNE_RAD)),
+        load_per_spin: single(dt * (swing * long + 1.0 / SPIN_BORNE_RAD + spun)),
         idle_timeout_ticks: single(
             libm::round(IDLE_DIAMETERS * 2.0 * reach / usual_m_s * TICKS_PER_S).clamp(2.0, 63.0),
         ),

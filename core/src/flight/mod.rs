@@ -8,8 +8,9 @@
 //! by its own motion.
 //!
 //! # Source
-//! The form of the forces: Andersen, Pesavento and Wang (2005), in three dimensions, with stall, damping of roll and the
-//! aspect ratio's lift slope. Coefficients: fitted to drops of paper discs (Howison, Hughes and Iida 2020).
+//! The terms: Andersen, Pesavento and Wang (2005), in three dimensions, with forces along the normal and within the blade
+//! in place of drag and lift, stall, damping of roll and the aspect ratio's lift slope. Coefficients: fitted to drops of
+//! paper discs (Howison, Hughes and Iida 2020).
 
 pub mod block;
 pub mod coefficients;

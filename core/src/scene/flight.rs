@@ -63,9 +63,9 @@ pub struct Aerodynamics {
     /// Radii of gyration about the axes across and along, 0.05 to 1, as shares of the half length and the half width of the
     /// ellipse: 0.5 for an even sheet, less for what has its mass in the middle.
     pub gyration: (f32, f32),
-    /// Drag edge-on, 0 to 1: 0.05 is the friction of a thin sheet, a thick seed adds to it.
+    /// Drag edge-on, 0 to 1: 0.096 is that of paper, a thick seed adds to it.
     pub edge_drag: f32,
-    /// Damping of pitching in a stalled flow, -1 to 1: where the stall lags behind, as on thin sheets, it is negative and
+    /// Gain of the damping of pitching with q, the squared sine of the incidence, -1 to 1: where the stall lags behind, as on thin sheets, it is negative and
     /// drives the pitching; where a leading-edge vortex stays, as on winged seeds, it is positive.
     pub pitch_damping: f32,
     /// Half width of the spread of offsets and twist among the leaves, 0 to 0.5; curl spreads half as much again. 0.035 is
@@ -86,8 +86,8 @@ impl Aerodynamics {
         curl: 0.0,
         twist: 0.0,
         gyration: (0.5, 0.5),
-        edge_drag: 0.05,
-        pitch_damping: -0.57,
+        edge_drag: 0.096,
+        pitch_damping: -0.427,
         irregularity: 0.035,
         hold: Hold::Random,
         tilt_deg: 12.0,

@@ -17,16 +17,17 @@ const DRY: Aerodynamics = Aerodynamics {
 const FEATHER: Aerodynamics =
     Aerodynamics { mass_offset: (-0.4, 0.0), curl: 0.3, twist: 0.3, ..Aerodynamics::FLAT };
 
-/// Most of the mass is in the nut at one end: let go any way round, nine in ten spin like a rotor within a metre and all within two, as the seeds of maples
-/// do, at 1 m/s and 14 turns a second. Curl, twist and the drag of its edge are more than a seed has: they stand in for the torque of a twisted blade in a flow along it.
+/// Most of the mass is in the nut at one end: let go any way round it spins like a rotor within a metre, as the seeds of
+/// maples do, at 1.2 m/s and 14 turns a second. Inertia and drag edge-on are those of a nut with a wing; curl and twist were
+/// searched for that.
 const SAMARA: Aerodynamics = Aerodynamics {
-    planform: Some(Planform { aspect: 2.7, extent: 1.03 }),
-    mass_offset: (-0.7, -0.195),
-    curl: 0.345,
+    planform: Some(Planform { aspect: 3.5, extent: 1.03 }),
+    mass_offset: (-0.576, -0.1),
+    curl: 0.43,
     twist: 1.0,
-    gyration: (0.4, 0.367),
-    edge_drag: 0.2,
-    pitch_damping: 0.5,
+    gyration: (0.43, 0.395),
+    edge_drag: 0.175,
+    pitch_damping: 0.11,
     irregularity: 0.02,
     ..Aerodynamics::FLAT
 };

@@ -56,10 +56,11 @@ functions! {
         out_float(6u, body.half_mean_m); out_float(7u, body.twist_m); out_vec3(8u, body.inv_inertia);
         out_vec3(11u, body.gyration); out_vec3(14u, body.centroid); out_float(17u, body.resistance);
         out_float(18u, body.size_ratio); out_float(19u, body.inv_size_ratio); out_float(20u, body.lift_slope_across);
-        out_float(21u, body.lift_slope_along); out_float(22u, body.pitch_damping); out_float(23u, body.edge_drag);";
+        out_float(21u, body.lift_slope_along); out_float(22u, body.pitch_damping); out_float(23u, body.edge_drag);
+        out_float(24u, body.screw_m); out_float(25u, body.viscous_m_s);";
     rust |cx, w| {
         let body = body(cx, w[0], w[1], w[2]);
-        let mut all = [0.0; 24];
+        let mut all = [0.0; 26];
         all[..8].copy_from_slice(&[
             body.air_per_m, body.added_mass, body.air_along, body.air_across,
             body.half_along_m, body.half_across_m, body.half_mean_m, body.twist_m,
@@ -69,7 +70,7 @@ functions! {
         all[14..17].copy_from_slice(&body.centroid.to_array());
         all[17..].copy_from_slice(&[
             body.resistance, body.size_ratio, body.inv_size_ratio, body.lift_slope_across, body.lift_slope_along,
-            body.pitch_damping, body.edge_drag,
+            body.pitch_damping, body.edge_drag, body.screw_m, body.viscous_m_s,
         ]);
         floats(all)
     };

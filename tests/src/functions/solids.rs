@@ -67,7 +67,7 @@ functions! {
     solids_cell in "solid/near" (PLACE, FLOW) tolerance None;
     wgsl "if (scene.solids.count != 0u) {
             let cell = solids_cell(in_vec3(0u));
-            let way_squared = 0.01 * vec3_dot(in_vec3(3u), in_vec3(3u));
+            let way_squared = 0.0001 * vec3_dot(in_vec3(3u), in_vec3(3u));
             r = vec4<u32>(cell, u32(may_meet_solids(in_vec3(0u), way_squared)), near_count(cell), near_solid(cell, 0u));
         }";
     rust |cx, w| {
@@ -75,7 +75,7 @@ functions! {
             return integers([0; 4]);
         }
         let cell = solids_cell(cx, vector(w, 0));
-        let way_squared = 0.01 * vec3_dot(vector(w, 3), vector(w, 3));
+        let way_squared = 0.0001 * vec3_dot(vector(w, 3), vector(w, 3));
         let may_meet = u32::from(may_meet_solids(cx, vector(w, 0), way_squared));
         integers([cell, may_meet, near_count(cx, cell), near_solid(cx, cell, 0)])
     };

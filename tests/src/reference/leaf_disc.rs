@@ -13,33 +13,46 @@ const AIR_KG_M3: f64 = 1.2;
 /// Coefficients of a disc's forces, as functions of q, the squared sine of the incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiscCoefficients {
-    /// Drag: constant, linear, quadratic.
-    pub drag: [f64; 3],
-    /// Lift slope: constant, linear, quadratic.
-    pub lift: [f64; 3],
+    /// Force against the velocity along the normal: constant, linear, quadratic.
+    pub normal: [f64; 3],
+    /// Force against the velocity along the disc: constant, linear, quadratic.
+    pub tangent: [f64; 3],
+    /// The same for the rim's own speed in place of the disc's.
+    pub tangent_spin: f64,
+    /// Share of the lift of rotation and of the impulse's change along the disc.
+    pub in_plane: f64,
     /// Lift of rotation: constant, linear.
     pub rotation: [f64; 2],
     /// Share of the Munk moment: constant, linear.
     pub munk: [f64; 2],
     /// Share of the added mass and inertia of potential flow.
     pub added: f64,
-    /// Damping of rotation about axes in the disc: with speed, with rotation.
-    pub damping: [f64; 2],
-    /// Further damping: of rolling, of pitching per q, about the normal.
-    pub further: [f64; 3],
+    /// Damping of rotation about axes in the disc: with speed, with rotation, and in m²/s over the radius.
+    pub damping: [f64; 3],
+    /// Damping of rolling.
+    pub roll: f64,
+    /// Damping of pitching: constant, linear.
+    pub pitch: [f64; 2],
+    /// Damping of rotation about the normal.
+    pub about_normal: f64,
 }
 
 impl DiscCoefficients {
     /// The earlier form of the model, fitted to planar drops alone: constant coefficients, one damping about all axes in
     /// the disc.
     pub const PLANAR: Self = Self {
-        drag: [0.44, 2.15 - 0.44, 0.0],
-        lift: [1.10, 0.0, 0.0],
+        // Half of a drag of 0.44 edge-on and 2.15 broadside, and a lift slope of 1.10.
+        normal: [0.22 + 1.10, 0.855 - 1.10, 0.0],
+        tangent: [0.22, 0.855 - 1.10, 0.0],
+        tangent_spin: 0.0,
+        in_plane: 1.0,
         rotation: [0.88, 0.0],
         munk: [1.0, 0.0],
         added: 0.54,
-        damping: [0.025, 0.20],
-        further: [0.0, 0.0, 0.0],
+        damping: [0.025, 0.20, 0.0],
+        roll: 0.0,
+        pitch: [0.0; 2],
+        about_normal: 0.0,
     };
 }
 
@@ -54,6 +67,9 @@ pub struct LeafDisc {
     pub radius_m: f64,
     /// Middle of the disc as seen from the centre of mass, in the disc's frame, y its normal, in m.
     pub arm_m: DVec3,
+    /// Torque of its twist, about its normal in a flow along that and about z in a flow along z: a coefficient of density, area, radius
+    /// and squared speed.
+    pub twist: f64,
 }
 
 /// A disc's motion, or its rate of change.
@@ -104,22 +120,27 @@ impl LeafDisc {
 
         let slip = flow - normal * flow.y;
         let spun = spin - normal * spin.y;
-        let drag = k.drag[0] + k.drag[1] * q + k.drag[2] * q * q;
-        let lift = k.lift[0] + k.lift[1] * q + k.lift[2] * q * q;
+        let pressed = k.normal[0] + k.normal[1] * q + k.normal[2] * q * q;
+        let dragged = (k.tangent[0] + k.tangent[1] * q + k.tangent[2] * q * q) * speed
+            + k.tangent_spin * radius * spun.length();
         let circulation = (k.rotation[0] + k.rotation[1] * q) * radius;
-        let force = -0.5 * AIR_KG_M3 * area * speed * drag * flow
-            + AIR_KG_M3 * area * lift * flow.y / speed * (flow.y * slip - slip.length_squared() * normal)
-            + AIR_KG_M3 * area * circulation * spun.cross(flow);
+        let whirl = circulation * spun.cross(flow);
+        let force = AIR_KG_M3
+            * area
+            * (of_normal(whirl, k.in_plane) - (speed * pressed * flow.y * normal + dragged * slip));
         // The impulse of the air that is carried along, but for its acceleration along the normal.
         let impulse = added_mass * flow.y * normal;
-        let push = force - spin.cross(impulse);
+        let push = force - of_normal(spin.cross(impulse), k.in_plane);
         let munk = -(k.munk[0] + k.munk[1] * q) * flow.cross(impulse);
         let across = slip.cross(normal);
-        let damping = (k.damping[0] * speed + k.damping[1] * radius * spun.length()) * spun
-            + k.further[0] / speed * spun.dot(slip) * slip
-            + k.further[1] * q / speed * spun.dot(across) * across
-            + k.further[2] * (speed + radius * spin.y.abs()) * spin.y * normal;
-        let torque = self.arm_m.cross(push) + munk - AIR_KG_M3 * area * radius * radius * damping;
+        let pitching = k.pitch[0] + k.pitch[1] * q;
+        let damping = (k.damping[0] * speed + k.damping[1] * radius * spun.length() + k.damping[2] / radius)
+            * spun
+            + k.roll / speed * spun.dot(slip) * slip
+            + pitching / speed * spun.dot(across) * across
+            + k.about_normal * (speed + radius * spin.y.abs()) * spin.y * normal;
+        let screw = self.twist * radius * speed * DVec3::new(0.0, flow.y, flow.z);
+        let torque = self.arm_m.cross(push) + munk + AIR_KG_M3 * area * (screw - radius * radius * damping);
 
         // The air resists the acceleration of the middle along the normal. Motion is linear in that resistance, so two
         // trials give it.
@@ -152,4 +173,9 @@ impl LeafDisc {
         let end = end.after(&k3, seconds / 3.0).after(&k4, seconds / 6.0);
         DiscState { pose: end.pose.normalize(), ..end }
     }
+}
+
+/// A vector of which only a share is left along the disc.
+fn of_normal(vector: DVec3, in_plane: f64) -> DVec3 {
+    vector * DVec3::new(in_plane, 1.0, in_plane)
 }

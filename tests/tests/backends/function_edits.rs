@@ -3,7 +3,7 @@
 //! Changes of one constant or operator of a device function that must be noticed.
 
 /// Module, a line of it, the line changed, and a function of the table that shows it.
-pub(crate) const EDITS: [(&str, &str, &str, &str); 136] = [
+pub(crate) const EDITS: [(&str, &str, &str, &str); 138] = [
     ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
     ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
     ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u", "motion_displacement"),
@@ -103,13 +103,20 @@ pub(crate) const EDITS: [(&str, &str, &str, &str); 136] = [
     ("tree/sway/outward", "inverse * JOINT_LIMIT", "inverse * JOINT_LIMIT_COSINE", "joint_step"),
     ("tree/sway/outward", "cross(parent.spin, arm)", "cross(arm, parent.spin)", "segment_place"),
     ("flight/body", "(y - z) * inv_inertia.x", "(y + z) * inv_inertia.x", "body_of"),
-    ("flight/rates", "q * (DRAG_RISE - q", "q * (DRAG_RISE + q", "flight_rates"),
     (
         "flight/rates",
-        "added_momentum * turn.x);\n    let munk",
-        "added_momentum * turn.y);\n    let munk",
+        "speed + edge_speed * TANGENT_SPIN",
+        "speed - edge_speed * TANGENT_SPIN",
         "flight_rates",
     ),
+    (
+        "flight/rates",
+        "(body.air_along * turn.x) * flow.z",
+        "(body.air_along * turn.x) * flow.x",
+        "flight_rates",
+    ),
+    ("flight/rates", "pitch_damping + PITCH_EDGE", "pitch_damping - PITCH_EDGE", "flight_rates"),
+    ("flight/body", "inv_size_ratio) * DAMPING_VISCOUS", "inv_size_ratio) / DAMPING_VISCOUS", "body_of"),
     ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
     ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
     ("flight/regime", "speed2 * (speed2 *", "speed2 * (1.01 *", "regime_in_spin"),

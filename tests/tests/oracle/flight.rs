@@ -13,8 +13,9 @@ use windfall_core::device::flight::body::body_of;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::leaf::record::SIZE_ONE;
 use windfall_core::flight::coefficients::{
-    DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
-    MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
+    DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DAMPING_VISCOUS_M2_S, MUNK_EDGE, MUNK_RISE, NORMAL_BEND,
+    NORMAL_EDGE, NORMAL_RISE, PITCH_EDGE, TANGENT_BEND, TANGENT_RISE, TANGENT_SPIN, TWIST_TORQUE, WHIRL_EDGE,
+    WHIRL_RISE,
 };
 use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species};
 use windfall_core::{Clock, CompiledScene, Scene};
@@ -24,13 +25,17 @@ use windfall_tests::reference::{DiscCoefficients, DiscState, LeafDisc};
 fn ours(body: &Aerodynamics) -> DiscCoefficients {
     let wide = f64::from;
     DiscCoefficients {
-        drag: [wide(body.edge_drag), wide(DRAG_RISE), -wide(DRAG_BEND)],
-        lift: [wide(LIFT_EDGE), wide(LIFT_RISE), wide(LIFT_BEND)],
+        normal: [wide(NORMAL_EDGE) + 0.5 * wide(body.edge_drag), wide(NORMAL_RISE), wide(NORMAL_BEND)],
+        tangent: [0.5 * wide(body.edge_drag), wide(TANGENT_RISE), wide(TANGENT_BEND)],
+        tangent_spin: wide(TANGENT_SPIN),
+        in_plane: 0.0,
         rotation: [wide(WHIRL_EDGE), wide(WHIRL_RISE)],
         munk: [wide(MUNK_EDGE), wide(MUNK_RISE)],
         added: 1.0,
-        damping: [0.0, wide(DAMPING_TURN)],
-        further: [wide(DAMPING_ROLL), wide(body.pitch_damping), wide(DAMPING_NORMAL)],
+        damping: [0.0, wide(DAMPING_TURN), wide(DAMPING_VISCOUS_M2_S)],
+        roll: wide(DAMPING_ROLL),
+        pitch: [wide(PITCH_EDGE), wide(body.pitch_damping)],
+        about_normal: wide(DAMPING_NORMAL),
     }
 }
 
@@ -67,17 +72,19 @@ const STATES: usize = 10;
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A disc of any size, mass centre and curl, moving and spinning in any wind.
+    /// A disc of any size, mass centre, curl and twist, moving and spinning in any wind.
     #[test]
     fn the_kernel_has_the_forces_of_the_reference(
         size_m in 0.01f32..0.2,
         offset in (-0.3f32..0.3, -0.3f32..0.3, -0.3f32..0.3),
+        twist in -1f32..1.0,
         states in prop::collection::vec((0.6f32..1.4, any_attitude(), three(6.0), three(6.0), three(30.0)), STATES),
     ) {
         let aerodynamics = Aerodynamics {
             planform: Some(Planform::default()),
             mass_offset: (offset.0, offset.1),
             curl: offset.2,
+            twist,
             irregularity: 0.0,
             ..Aerodynamics::default()
         };
@@ -99,6 +106,7 @@ proptest! {
                 areal_kg_m2: 0.07f32.into(),
                 radius_m,
                 arm_m: DVec3::new(-across, f64::from(offset.2), -along) * radius_m,
+                twist: TWIST_TORQUE * f64::from(twist),
             };
             let [x, y, z, w] = pose.map(f64::from);
             let state = DiscState {
@@ -122,7 +130,7 @@ proptest! {
 /// A disc of 70 g/m² that has settled: mean descent in m/s, drift in m/s, turns per second.
 fn settled(radius_m: f64, start: DiscState, settle_s: f64, keep_s: f64, step_s: f64) -> [f64; 3] {
     let coefficients = DiscCoefficients::PLANAR;
-    let disc = LeafDisc { coefficients, areal_kg_m2: 0.07, radius_m, arm_m: DVec3::ZERO };
+    let disc = LeafDisc { coefficients, areal_kg_m2: 0.07, radius_m, arm_m: DVec3::ZERO, twist: 0.0 };
     let (mut state, mut turned) = (start, 0.0);
     let mut run = |seconds: f64| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]

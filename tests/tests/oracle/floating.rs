@@ -147,6 +147,7 @@ fn leaves_gather_at_the_downwind_shore_in_a_raft_of_a_layer_or_two() {
     }
     layers.sort_by(f32::total_cmp);
     let (median, most) = (layers[layers.len() / 2], layers[layers.len() * 99 / 100]);
+    println!("{downwind} of {} leaves downwind, {median:.2} layers, up to {most:.2}", end.len());
     assert!((0.6..1.6).contains(&median) && most < 2.5, "{median} layers, up to {most}");
 }
 

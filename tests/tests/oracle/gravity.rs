@@ -38,14 +38,16 @@ fn on_the_moon(scene: &Scene) -> Scene {
 #[test]
 fn bodies_fall_by_the_root_of_gravity() {
     let flight = FlightModel::Aerodynamic(Aerodynamics::default());
-    for (areal_density_kg_m2, size_m) in [(0.05, 0.03), (0.07, 0.07), (0.2, 0.12)] {
+    for (areal_density_kg_m2, size_m, tolerance) in
+        [(0.05, 0.03, 0.08), (0.07, 0.07, 0.03), (0.2, 0.12, 0.03)]
+    {
         let species = Species { flight, areal_density_kg_m2, size_m, ..uniform_species() };
         let mut earth = still_scene(species, 400, 30.0);
         earth.dt_s = 1.0 / 240.0;
-        // The air has no viscosity, so the same motion goes on at another pace.
+        // But for viscosity, which small and slow bodies feel, the same motion goes on at another pace.
         let [here, there] = [&earth, &on_the_moon(&earth)].map(|scene| fall_speed(scene, 480, 1440));
         println!("{size_m} m, {areal_density_kg_m2} kg/m²: {here:.3} m/s here, {there:.3} m/s on the Moon");
-        assert!((there / here / root() - 1.0).abs() < 0.03, "{here} m/s, on the Moon {there} m/s");
+        assert!((there / here / root() - 1.0).abs() < tolerance, "{here} m/s, on the Moon {there} m/s");
     }
 }
 

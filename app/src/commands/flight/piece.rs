@@ -200,17 +200,19 @@ impl Piece {
             let [lowest, highest] = [SIZE_M.low, SIZE_M.high].map(|limit| f64::from(limit) / diameter);
             bail!("--size is {size_m}; allowed: {lowest:.4} to {highest:.4} m for this shape");
         }
-        let body = Aerodynamics { planform: Some(planform), ..Aerodynamics::default() };
-        let species = Species {
-            name: "piece".into(),
-            size_m: equal_m,
-            size_variation: 0.0,
-            speed_variation: 0.0,
-            areal_density_kg_m2: density,
-            flight: FlightModel::Aerodynamic(body),
-            ..Species::default()
-        };
+        let species = sheet(planform, equal_m, density);
         Ok(Self { name: name.into(), size_m, areal_density_kg_m2: density, species })
+    }
+
+    /// A strip of a width in m, so many times as long, of a mass per area in kg/m².
+    #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
+    pub(super) fn strip(width_m: f64, aspect: f64, density: f64) -> Self {
+        let corner = |across: f64, along: f64| DVec2::new(across, along * aspect) * (0.5 * width_m);
+        let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let (planform, diameter_m) = measured(&corners, 1.0);
+        let density = density as f32;
+        let species = sheet(planform, diameter_m as f32, density);
+        Self { name: "strip".into(), size_m: width_m as f32, areal_density_kg_m2: density, species }
     }
 
     /// The same, held in a way.
@@ -255,6 +257,20 @@ impl Piece {
     }
 }
 
+/// Species of a flat sheet with the area of a disc of this diameter.
+fn sheet(planform: Planform, diameter_m: f32, areal_density_kg_m2: f32) -> Species {
+    let body = Aerodynamics { planform: Some(planform), ..Aerodynamics::default() };
+    Species {
+        name: "piece".into(),
+        size_m: diameter_m,
+        size_variation: 0.0,
+        speed_variation: 0.0,
+        areal_density_kg_m2,
+        flight: FlightModel::Aerodynamic(body),
+        ..Species::default()
+    }
+}
+
 /// Corners of a regular polygon on a circle of diameter 1 about the origin, turned so that a side lies across.
 fn polygon(corners: u32) -> Vec<DVec2> {
     let angle = |index: u32| TAU * (f64::from(index) + 0.5) / f64::from(corners);
@@ -263,7 +279,7 @@ fn polygon(corners: u32) -> Vec<DVec2> {
 
 /// Planform of a polygon, and the diameter of the disc with its area, when its size is 1 and it now has size `size`.
 fn measured(corners: &[DVec2], size: f64) -> (Planform, f64) {
-    let Measured { area, planform, .. } = Planform::of_outline(corners).expect("a regular polygon");
+    let Measured { area, planform, .. } = Planform::of_outline(corners).expect("a polygon");
     (planform, (4.0 * area / PI).sqrt() / size)
 }
 
@@ -289,6 +305,15 @@ mod tests {
             let found = diameter(name);
             assert!((f64::from(found) / right - 1.0).abs() < 1e-6, "{name}: {found}, should be {right}");
         }
+    }
+
+    #[test]
+    fn strips_are_as_long_and_wide_as_asked() {
+        let strip = Piece::strip(0.06, 8.0, 0.05);
+        let planform = strip.planform();
+        assert!((planform.aspect - 8.0).abs() < 1e-4, "{planform:?}");
+        let right = (4.0 * 0.06 * 0.48 / PI).sqrt();
+        assert!((f64::from(strip.species.size_m) / right - 1.0).abs() < 1e-6, "{strip:?}");
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, body: &mut Aerodynamics, own: Option<&Aerodynami
     field("Gyration across", tip, limits::GYRATION).show(ui, across, own.map(|own| own.gyration.0));
     let tip = "Radius of gyration about the axis along, as a share of the half width: 0.5 for an even sheet";
     field("Gyration along", tip, limits::GYRATION).show(ui, along, own.map(|own| own.gyration.1));
-    let tip = "Drag edge-on: 0.05 is the friction of a thin sheet";
+    let tip = "Drag edge-on: 0.096 is that of paper";
     field("Edge drag", tip, limits::EDGE_DRAG).show(ui, &mut body.edge_drag, own.map(|own| own.edge_drag));
     let tip = "Damping of pitching in a stalled flow: negative on thin sheets, positive on winged seeds";
     let damping = field("Pitch damping", tip, limits::PITCH_DAMPING);

@@ -192,7 +192,8 @@ mod tests {
         assert!(smooth.iter().all(|onset| *onset == Onset::Slides), "{smooth:?}");
         let rough = in_wind(5.0);
         assert!(rough.len() > 50, "{} go", rough.len());
-        assert!(rough.contains(&Onset::Tips) && !rough.contains(&Onset::Slides), "{rough:?}");
+        let tips = rough.iter().filter(|onset| **onset == Onset::Tips).count();
+        assert!(10 * tips > 9 * rough.len(), "{tips} of {}: {rough:?}", rough.len());
     }
 
     #[test]

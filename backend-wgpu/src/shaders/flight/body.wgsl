@@ -17,6 +17,8 @@ struct LeafBody {
     half_across_m: f32,
     half_mean_m: f32,
     twist_m: f32,
+    screw_m: f32,
+    viscous_m_s: f32,
     lift_slope_across: f32,
     lift_slope_along: f32,
     pitch_damping: f32,
@@ -46,6 +48,7 @@ fn body_of(bits: u32, size: u32) -> LeafBody {
         block.centroid_m.y + asymmetry(size, 1u) * block.centroid_spread_m.y,
         block.centroid_m.z + asymmetry(size, 2u) * block.centroid_spread_m.z,
     );
+    let narrow = block.half_across_m * reciprocal(block.half_along_m);
     let added = block.added_mass * ratio;
     let swing = (centroid.x * centroid.x) * inv_inertia.z + (centroid.z * centroid.z) * inv_inertia.x;
     return LeafBody(
@@ -59,6 +62,8 @@ fn body_of(bits: u32, size: u32) -> LeafBody {
         block.half_across_m,
         block.half_mean_m,
         block.twist_m + asymmetry(size, 3u) * block.twist_spread_m,
+        block.twist_m * (narrow * narrow),
+        (reciprocal(block.half_mean_m) * inv_size_ratio) * DAMPING_VISCOUS_M2_S,
         block.lift_slope_across,
         block.lift_slope_along,
         block.pitch_damping,

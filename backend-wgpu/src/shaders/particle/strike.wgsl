@@ -32,7 +32,7 @@ struct StruckSurface {
 
 fn particle_body() -> LeafBody {
     let none = vec3<f32>(0.0, 0.0, 0.0);
-    return LeafBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, none, none, none);
+    return LeafBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, none, none, none);
 }
 
 fn ground_gap(place: vec3<f32>) -> f32 {

@@ -13,6 +13,7 @@ use crate::arith::vector::Vec3;
 use crate::context::Context;
 use crate::device::leaf::record::{asymmetry, leaf_species, size_ratio};
 use crate::flight::block::BODY_ROWS;
+use crate::flight::coefficients::DAMPING_VISCOUS_M2_S;
 
 /// A leaf as a body, or eight of them. Turning speeds are spins times `size_ratio`.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +38,10 @@ pub struct LeafBody<R: Real = f32> {
     pub half_mean_m: R,
     /// Torque of twist in m.
     pub twist_m: R,
+    /// Torque about the length in m of a flow along it: the twist that its kind has makes the blade a screw.
+    pub screw_m: R,
+    /// Damping of turning by the air's viscosity, as a speed in m/s: what is small turns in thick air.
+    pub viscous_m_s: R,
     /// Slope of the lift of slip across relative to a disc's.
     pub lift_slope_across: R,
     /// Slope of the lift of slip along relative to a disc's.
@@ -89,6 +94,7 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> LeafBody<W::Real>
         centroid_y + asymmetry(size, 1) * spread_y,
         centroid_z + asymmetry(size, 2) * spread_z,
     );
+    let narrow = half_across_m * reciprocal(half_along_m);
     let added = added_mass * ratio;
     let swing = (centroid.x * centroid.x) * inv_inertia.z + (centroid.z * centroid.z) * inv_inertia.x;
     LeafBody {
@@ -102,6 +108,8 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> LeafBody<W::Real>
         half_across_m,
         half_mean_m,
         twist_m: twist_m + asymmetry(size, 3) * twist_spread,
+        screw_m: twist_m * (narrow * narrow),
+        viscous_m_s: (reciprocal(half_mean_m) * inv_size_ratio) * DAMPING_VISCOUS_M2_S,
         lift_slope_across,
         lift_slope_along,
         pitch_damping,

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/flight/rates.wgsl
 //!
-//! Rates of change of a body's motion in moving air: drag, lift, the lift of turning, added mass, damping.
+//! Rates of change of a body's motion in moving air: forces along the normal and the blade, the lift of turning, added
+//! mass, damping.
 
 use super::body::LeafBody;
 use crate::arith::lane::Real;
@@ -11,8 +12,8 @@ use crate::arith::quaternion::Quat;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::context::Context;
 use crate::flight::coefficients::{
-    DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
-    MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
+    DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, MUNK_EDGE, MUNK_RISE, NORMAL_BEND, NORMAL_EDGE, NORMAL_RISE,
+    PITCH_EDGE, TANGENT_BEND, TANGENT_RISE, TANGENT_SPIN, WHIRL_EDGE, WHIRL_RISE,
 };
 
 /// Motion of a body, or of eight of them; or its rates of change.
@@ -35,47 +36,49 @@ pub struct AirLoad<R: Real = f32> {
     pub inv_speed: R,
     /// Squared sine of the incidence.
     pub q: R,
-    /// Squared speed within the plane of the blade.
+    /// Force over mass along the normal, per velocity along it: against it, thus negative.
+    pub normal: R,
+    /// Force over mass along the blade, per velocity along it.
     pub tangent: R,
-    /// Drag over mass per velocity.
-    pub drag: R,
-    /// Lift over mass per product of velocities.
-    pub lift: R,
 }
 
-/// Load of a flow past a body, whose velocity is in the leaf's frame.
+/// Load of a flow past a body, whose velocity is in the leaf's frame, and whose edges move at a speed of their own.
 #[inline(always)]
-pub fn air_load<R: Real>(body: &LeafBody<R>, flow: Vec3<R>) -> AirLoad<R> {
+pub fn air_load<R: Real>(body: &LeafBody<R>, flow: Vec3<R>, edge_speed: R) -> AirLoad<R> {
     let one = |value: f32| flow.x.all(value);
     let squared = vec3_dot(flow, flow).max(one(TINY_SQUARED));
     let inv_speed = inverse_sqrt(squared);
     let speed = squared * inv_speed;
     let (across2, along2) = (flow.x * flow.x, flow.z * flow.z);
-    let tangent = across2 + along2;
     let incidence = flow.y * inv_speed;
     let q = incidence * incidence;
-
-    let drag = (body.air_per_m * 0.5) * ((q * (one(DRAG_RISE) - q * DRAG_BEND) + body.edge_drag) * speed);
     let slope =
         q + (body.lift_slope_across * across2 + body.lift_slope_along * along2) * (inv_speed * inv_speed);
-    let lift = (body.air_per_m * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
-    AirLoad { speed, inv_speed, q, tangent, drag, lift }
+
+    let edge_on = body.edge_drag * 0.5;
+    let against = body.air_per_m * -1.0;
+    let pressed = slope * NORMAL_EDGE + q * (q * NORMAL_BEND + NORMAL_RISE);
+    let dragged = (q * (q * TANGENT_BEND + TANGENT_RISE) + edge_on) * speed + edge_speed * TANGENT_SPIN;
+    AirLoad {
+        speed,
+        inv_speed,
+        q,
+        normal: against * ((pressed + edge_on) * speed),
+        tangent: against * dragged,
+    }
 }
 
 /// Force over mass and torque over mass of a flow past a body that does not turn, in the leaf's frame; the torque is that of a leaf
 /// of nominal size.
 #[inline(always)]
 pub fn still_load(body: &LeafBody, flow: Vec3) -> (Vec3, Vec3) {
-    let AirLoad { speed, q, tangent, drag, lift, .. } = air_load(body, flow);
-    let force = Vec3::new(
-        (lift * flow.y - drag) * flow.x,
-        -(lift * tangent + drag * flow.y),
-        (lift * flow.y - drag) * flow.z,
-    );
+    let AirLoad { speed, q, normal, tangent, .. } = air_load(body, flow, 0.0);
+    let force = Vec3::new(tangent * flow.x, normal * flow.y, tangent * flow.z);
     let munk = (body.added_mass * flow.y) * (q * MUNK_RISE + MUNK_EDGE);
     let lever = vec3_cross(body.centroid, force);
     let twist = body.twist_m * (speed * flow.y);
-    (force, Vec3::new(lever.x + munk * flow.z, lever.y + twist, lever.z - munk * flow.x))
+    let screw = body.screw_m * (speed * flow.z);
+    (force, Vec3::new(lever.x + munk * flow.z, lever.y + twist, (lever.z - munk * flow.x) + screw))
 }
 
 /// Rates of change of the motion of a body in wind; the pose's is that of its four components.
@@ -101,39 +104,28 @@ pub fn flight_rates<R: Real>(
     let u = Vec3::new(vec3_dot(across, relative), vec3_dot(normal, relative), vec3_dot(along, relative));
     let turn = motion.turning;
     let flow = u + vec3_cross(turn, body.centroid);
-    let AirLoad { speed, inv_speed, q, tangent, drag, lift } = air_load(body, flow);
+    let (edge_x, edge_z) = (body.half_along_m * turn.x, body.half_across_m * turn.z);
+    let edge_squared = (edge_x * edge_x + edge_z * edge_z).max(x.all(TINY_SQUARED));
+    let edge = edge_squared * inverse_sqrt(edge_squared);
+    let AirLoad { speed, inv_speed, q, normal: pressure, tangent } = air_load(body, flow, edge);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
-    let whirl = vec3_cross(
-        Vec3::new(
-            (body.air_along * circulation) * turn.x,
-            x.all(0.0),
-            (body.air_across * circulation) * turn.z,
-        ),
-        flow,
-    );
-    let force = Vec3::new(
-        whirl.x + (lift * flow.y - drag) * flow.x,
-        whirl.y - (lift * tangent + drag * flow.y),
-        whirl.z + (lift * flow.y - drag) * flow.z,
-    );
+    let whirl = circulation * ((body.air_across * turn.z) * flow.x - (body.air_along * turn.x) * flow.z);
+    let force = Vec3::new(tangent * flow.x, whirl + pressure * flow.y, tangent * flow.z);
 
     // Added mass, but for its resistance to acceleration along the normal.
-    let added_momentum = body.added_mass * flow.y;
-    let push = Vec3::new(force.x + added_momentum * turn.z, force.y, force.z - added_momentum * turn.x);
-    let munk = added_momentum * (q * MUNK_RISE + MUNK_EDGE);
-    let (edge_x, edge_z) = (body.half_along_m * turn.x, body.half_across_m * turn.z);
-    let edge = (edge_x * edge_x + edge_z * edge_z).max(x.all(TINY_SQUARED));
-    let damping = (edge * inverse_sqrt(edge)) * DAMPING_TURN;
+    let munk = (body.added_mass * flow.y) * (q * MUNK_RISE + MUNK_EDGE);
+    let damping = edge * DAMPING_TURN + body.viscous_m_s;
     let roll = (inv_speed * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
-    let pitch = (inv_speed * (q * body.pitch_damping)) * (edge_x * flow.z - edge_z * flow.x);
+    let pitch = (inv_speed * (q * body.pitch_damping + PITCH_EDGE)) * (edge_x * flow.z - edge_z * flow.x);
     let wheel = turn.y * body.half_mean_m;
     let wheeling = (speed + wheel.max(x.all(0.0) - wheel)) * DAMPING_NORMAL;
-    let lever = vec3_cross(body.centroid, push);
+    let lever = vec3_cross(body.centroid, force);
     let torque = Vec3::new(
         (lever.x + munk * flow.z) - body.air_along * (damping * edge_x + (roll * flow.x + pitch * flow.z)),
         (lever.y + body.twist_m * (speed * flow.y))
             - (body.air_along * body.half_across_m) * (wheeling * turn.y),
-        (lever.z - munk * flow.x) - body.air_across * (damping * edge_z + (roll * flow.z - pitch * flow.x)),
+        ((lever.z - munk * flow.x) + body.screw_m * (speed * flow.z))
+            - body.air_across * (damping * edge_z + (roll * flow.z - pitch * flow.x)),
     );
     let angular_accel = Vec3::new(
         torque.x * body.inv_inertia.x + body.gyration.x * (turn.y * turn.z),
@@ -146,12 +138,12 @@ pub fn flight_rates<R: Real>(
     let size = body.inv_size_ratio;
     let frame_accel = (turn.z * u.x - turn.x * u.z) * size;
     let centroid_accel = body.centroid.x * angular_accel.z - body.centroid.z * angular_accel.x;
-    let normal_accel = ((push.y - weight * normal.y) - frame_accel) + centroid_accel;
+    let normal_accel = ((force.y - weight * normal.y) - frame_accel) + centroid_accel;
     let normal_force = body.resistance * normal_accel;
     let inner = Vec3::new(
-        push.x - weight * across.y,
-        (push.y - weight * normal.y) - normal_force,
-        push.z - weight * along.y,
+        force.x - weight * across.y,
+        (force.y - weight * normal.y) - normal_force,
+        force.z - weight * along.y,
     );
     let acceleration = across * inner.x + normal * inner.y + along * inner.z;
     let turning = Vec3::new(

@@ -82,6 +82,8 @@ pub fn particle_body() -> LeafBody {
         half_across_m: 0.0,
         half_mean_m: 0.0,
         twist_m: 0.0,
+        screw_m: 0.0,
+        viscous_m_s: 0.0,
         lift_slope_across: 0.0,
         lift_slope_along: 0.0,
         pitch_damping: 0.0,
