@@ -6,10 +6,10 @@
 //! against the velocity there; their coefficients are per that velocity, the speed and the air's mass over the body's area.
 //!
 //! # Source
-//! Fitted to drops of paper discs from 3.5 to 9.4 cm, let go broadside and edge-on (Howison, Hughes and Iida 2020), to the
-//! boundaries between periodic, chaotic and tumbling discs and the Reynolds numbers below which they fall steadily
-//! (Field, Klaus, Moore and Nori 1997). A disc held broadside has its measured drag coefficient,
-//! 1.17 (Hoerner 1965).
+//! Fitted to drops of paper discs from 3.5 to 9.4 cm, let go broadside and edge-on (Howison, Hughes and Iida 2020), and to
+//! where discs flutter and begin to tumble (Field, Klaus, Moore and Nori 1997). Not fitted: a disc held broadside has its
+//! measured drag coefficient, 1.17 (Hoerner 1965), and viscosity damps so that discs fall steadily below a Reynolds number
+//! of about 100, as Field and others measured.
 
 crate::shared_constants! {
     /// Force along the normal edge-on, times the slope of lift.

@@ -119,7 +119,7 @@ fn is_usual(value: f64, mean: f64, deviation: f64) -> bool {
 
 /// Means over drops lie where eight in ten of the measured drops do: of descent in eleven rows of twelve (discs of 5.5 cm
 /// let go edge-on came down slower, and with less scatter, than all others), of the turning rate in nine (discs of 7.7 cm
-/// let go broadside turned slower, those of 5.5 and 6.5 cm let go edge-on a tenth and a fifth faster), and of descent over
+/// let go broadside turned slower, those of 5.5 and 6.5 cm let go edge-on faster), and of descent over
 /// all measured drops in every row.
 #[test]
 fn discs_come_down_and_turn_as_measured() {

@@ -46,7 +46,7 @@ const SETTLED: f64 = 0.5;
 ///
 /// Discs are let go any way round. Each is a pie at its Reynolds number, descent times diameter over viscosity, and its
 /// dimensionless moment of inertia, pi/64 of mass per area over density of air times diameter; slices are the shares of
-/// drops by regime. Lines and tints are the boundaries that Field and others measured in 1997. Below are strips of paper by
+/// drops by regime. Lines and tints are the boundaries that Field and others measured in 1997. Below are strips by
 /// their Froude number, the root of mass per area over density of air times width, at whose 0.67 Belmonte and others
 /// (1998) found that strips which cannot turn aside begin to tumble.
 #[derive(Clone, Debug, Args)]

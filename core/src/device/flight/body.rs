@@ -40,7 +40,7 @@ pub struct LeafBody<R: Real = f32> {
     pub twist_m: R,
     /// Torque about the length in m of a flow along it: the twist that its kind has makes the blade a screw.
     pub screw_m: R,
-    /// Damping of turning by the air's viscosity, as a speed in m/s: what is small turns in thick air.
+    /// Damping of turning by the air's viscosity, as a speed in m/s.
     pub viscous_m_s: R,
     /// Slope of the lift of slip across relative to a disc's.
     pub lift_slope_across: R,
