@@ -22,6 +22,8 @@ use crate::study::still_air::Drops;
 /// Options of a measurement.
 #[derive(Clone, Debug, Args)]
 #[command(mut_arg("backend", |arg| arg.help("Where to simulate [default: cpu]")))]
+// The command's own options are a group of this name.
+#[group(skip)]
 pub(super) struct Arguments {
     #[command(flatten)]
     piece: PieceArguments,
