@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -70,19 +71,11 @@ fn draw_discs(area: &Area<'_>, spots: &[Spot]) -> Drawn {
     for (regime, corners) in regions() {
         chart.draw_series([Polygon::new(corners, color(regime).mix(0.13))])?;
     }
-    chart
-        .configure_mesh()
-        .x_desc("Reynolds number, descent times diameter over viscosity")
-        .y_desc("dimensionless moment of inertia I*")
-        .axis_desc_style(font(25))
-        .label_style(font(22))
-        .axis_style(INK.stroke_width(UNIT))
-        .bold_line_style(INK.mix(0.12).stroke_width(UNIT))
-        .light_line_style(INK.mix(0.04).stroke_width(UNIT))
-        .set_all_tick_mark_size(6 * UNIT)
-        .x_label_formatter(&|reynolds| format!("{reynolds}"))
-        .y_label_formatter(&|inertia| format!("{inertia}"))
-        .draw()?;
+    draw_axes(
+        &mut chart,
+        ["Reynolds number, descent times diameter over viscosity", "dimensionless moment of inertia I*"],
+        [&|reynolds| format!("{reynolds}"), &|inertia| format!("{inertia}")],
+    )?;
     for boundary in boundaries() {
         let line = LineSeries::new(shown(&boundary.points), INK.mix(0.75).stroke_width(3 * UNIT));
         chart.draw_series(line)?;
@@ -121,24 +114,42 @@ fn draw_strips(part: &Area<'_>, whole: &Area<'_>, spots: &[Spot]) -> Drawn {
         between(Regime::Flutter, FROUDE.start, tumble - uncertainty),
         between(Regime::Tumble, tumble + uncertainty, FROUDE.end),
     ])?;
+    draw_axes(
+        &mut chart,
+        ["Froude number, root of mass per area over density of the air times width", "length / width"],
+        [&|froude| format!("{froude:.1}"), &|aspect| format!("{aspect:.0}")],
+    )?;
+    let line = [(tumble, ASPECT.start), (tumble, ASPECT.end)];
+    chart.draw_series(LineSeries::new(line, INK.mix(0.75).stroke_width(3 * UNIT)))?;
+    for spot in spots {
+        pie(whole, chart.backend_coord(&spot.place), spot)?;
+    }
+    Ok(())
+}
+
+/// Draws the grid of a chart, its axes with their names, and numbers as these functions write them.
+fn draw_axes<X, Y>(
+    chart: &mut ChartContext<'_, BitMapBackend<'_>, Cartesian2d<X, Y>>,
+    [across, up]: [&str; 2],
+    [number_across, number_up]: [&dyn Fn(&f64) -> String; 2],
+) -> Drawn
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
     chart
         .configure_mesh()
-        .x_desc("Froude number, root of mass per area over density of the air times width")
-        .y_desc("length / width")
+        .x_desc(across)
+        .y_desc(up)
         .axis_desc_style(font(25))
         .label_style(font(22))
         .axis_style(INK.stroke_width(UNIT))
         .bold_line_style(INK.mix(0.12).stroke_width(UNIT))
         .light_line_style(INK.mix(0.04).stroke_width(UNIT))
         .set_all_tick_mark_size(6 * UNIT)
-        .x_label_formatter(&|froude| format!("{froude:.1}"))
-        .y_label_formatter(&|aspect| format!("{aspect:.0}"))
+        .x_label_formatter(number_across)
+        .y_label_formatter(number_up)
         .draw()?;
-    let line = [(tumble, ASPECT.start), (tumble, ASPECT.end)];
-    chart.draw_series(LineSeries::new(line, INK.mix(0.75).stroke_width(3 * UNIT)))?;
-    for spot in spots {
-        pie(whole, chart.backend_coord(&spot.place), spot)?;
-    }
     Ok(())
 }
 
