@@ -9,9 +9,9 @@ use windfall_core::scene::{
     Aerodynamics, Air, Bounds, Burning, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers,
     ForceKind, Gusts, History, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object,
     ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape,
-    Particles, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space,
-    Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water,
-    Weather, WindParameters,
+    Particles, PetioleRod, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape,
+    Space, Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker,
+    Water, Weather, WindParameters,
 };
 
 use crate::functions::Input;
@@ -168,6 +168,7 @@ pub fn flying_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
     scene.species[1].flight = FlightModel::Aerodynamic(Aerodynamics::default());
     let crooked = Aerodynamics {
         planform: Some(Planform { aspect: 1.8, extent: 1.05 }),
+        petiole: Some(PetioleRod { base: 1.2, length: 1.5, mass: 0.2, droop_deg: 30.0 }),
         moisture: 0.5,
         mass_offset: (-0.1, 0.05),
         curl: 0.15,
@@ -427,19 +428,28 @@ fn woods() -> impl Strategy<Value = (Vec<Tree>, f32, Option<f32>)> {
 /// A body of any kind.
 fn aerodynamics() -> impl Strategy<Value = Aerodynamics> {
     let planform = proptest::option::of((0.3f32..3.0, 1.0f32..1.3));
+    let rod = proptest::option::of((0.5f32..1.5, 0f32..2.0, 0f32..0.3, -40f32..40.0));
     let hold = prop_oneof![Just(Hold::Random), Just(Hold::Broadside), Just(Hold::EdgeOn)];
     let bent = (-0.3f32..0.3, -0.3f32..0.3, -0.5f32..0.5, -1f32..1.0);
-    (planform, 0f32..2.0, bent, 0f32..0.2, hold, 0f32..90.0).prop_map(
-        |(planform, moisture, (along, across, curl, twist), irregularity, hold, tilt_deg)| Aerodynamics {
-            planform: planform.map(|(aspect, extent)| Planform { aspect, extent }),
-            moisture,
-            mass_offset: (along, across),
-            curl,
-            twist,
-            irregularity,
-            hold,
-            tilt_deg,
-            ..Aerodynamics::default()
+    (planform, rod, 0f32..2.0, bent, 0f32..0.2, hold, 0f32..90.0).prop_map(
+        |(planform, rod, moisture, (along, across, curl, twist), irregularity, hold, tilt_deg)| {
+            Aerodynamics {
+                planform: planform.map(|(aspect, extent)| Planform { aspect, extent }),
+                petiole: rod.map(|(base, length, mass, droop_deg)| PetioleRod {
+                    base,
+                    length,
+                    mass,
+                    droop_deg,
+                }),
+                moisture,
+                mass_offset: (along, across),
+                curl,
+                twist,
+                irregularity,
+                hold,
+                tilt_deg,
+                ..Aerodynamics::default()
+            }
         },
     )
 }

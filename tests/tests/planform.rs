@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Planform of every shape: the scene's numbers against outlines as they are drawn.
+//! Planform and petiole of every shape: the scene's numbers against outlines as they are drawn.
 
 use glam::{DVec2, Vec2};
 use windfall_core::scene::{LeafShape, Planform};
-use windfall_texgen::{LightBody, Shape};
+use windfall_texgen::{LeafMaker, LightBody, MakeOptions, PetioleFacts, Shape};
 
 /// Outlines of each shape.
 const OUTLINES: u16 = 200;
@@ -35,6 +35,18 @@ const SHAPES: [(LeafShape, Outline); 12] = [
     (LeafShape::Samara, |seed| LightBody::Samara.outline(seed)),
 ];
 
+/// Kinds of leaves, each as the scene and as the leaf maker names it.
+const LEAF_SHAPES: [(LeafShape, Shape); 8] = [
+    (LeafShape::Maple, Shape::Maple),
+    (LeafShape::Oak, Shape::Oak),
+    (LeafShape::Birch, Shape::Birch),
+    (LeafShape::Beech, Shape::Beech),
+    (LeafShape::Linden, Shape::Linden),
+    (LeafShape::Ginkgo, Shape::Ginkgo),
+    (LeafShape::JapaneseMaple, Shape::JapaneseMaple),
+    (LeafShape::Hornbeam, Shape::Hornbeam),
+];
+
 fn measured(outline: &[Vec2]) -> Planform {
     let corners: Vec<DVec2> = outline.iter().map(|corner| corner.as_dvec2()).collect();
     Planform::of_outline(&corners).expect("a shape has an area").planform
@@ -54,6 +66,47 @@ fn shapes_have_the_mean_planform_of_their_outlines() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Base and length of a drawn petiole in radii of the disc with the blade's area.
+fn petiole(shape: Shape, seed: u64) -> (f32, f32) {
+    let leaf = shape.draw(SIDE_PX, seed).expect("an allowed size");
+    let corners: Vec<DVec2> = leaf.blade.outline.iter().map(|corner| corner.as_dvec2()).collect();
+    let found = Planform::of_outline(&corners).expect("a leaf has an area");
+    let radius = (found.area / std::f64::consts::PI).sqrt();
+    let root = leaf.blade.root.as_dvec2();
+    let (end, _) = leaf.petiole[0];
+    ((root.distance(found.centroid) / radius) as f32, (root.distance(end.as_dvec2()) / radius) as f32)
+}
+
+#[test]
+fn shapes_have_the_mean_petioles_of_their_leaves() {
+    let mut wrong = Vec::new();
+    let names = LEAF_SHAPES.map(|(leaf, _)| leaf);
+    for (shape, drawn) in LEAF_SHAPES {
+        let found: Vec<_> = (0..OUTLINES).map(|seed| petiole(drawn, u64::from(seed))).collect();
+        let mean = |value: fn(&(f32, f32)) -> f32| found.iter().map(value).sum::<f32>() / f32::from(OUTLINES);
+        let (base, length) = (mean(|petiole| petiole.0), mean(|petiole| petiole.1));
+        let stated = shape.petiole().expect("leaves have petioles");
+        // Folders of made leaves state the same shares and angles.
+        let facts = made_petiole(drawn);
+        let agrees = (facts.mass, facts.droop_deg) == (stated.mass, stated.droop_deg);
+        if (base - stated.base).abs() > 0.03 || (length - stated.length).abs() > 0.03 || !agrees {
+            wrong.push(format!("{shape:?}: {base:.3}, {length:.3}, {facts:?}, stated {stated:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    let others = SHAPES.iter().map(|(shape, _)| *shape).filter(|shape| !names.contains(shape));
+    for shape in others {
+        assert_eq!(shape.petiole(), None, "{shape:?} is no leaf");
+    }
+}
+
+/// Petiole of a leaf as its manifest states it.
+fn made_petiole(shape: Shape) -> PetioleFacts {
+    let options = MakeOptions { size_px: 64, season: None, seed: 1 };
+    let made = LeafMaker::of_shape(shape, options).expect("allowed").make(0, false).expect("it grows");
+    made.facts.body.expect("an area").petiole.expect("a petiole")
 }
 
 #[test]

@@ -6,6 +6,7 @@ use glam::Vec2;
 use image::imageops::{self, FilterType};
 use image::{GrayImage, RgbImage, Rgba, RgbaImage};
 
+use crate::making::PETIOLE_DROOP_DEG;
 use crate::math::{linear_from_srgb, luminance, single, to_byte};
 use crate::{FolderLeaf, LeafForm, mipmap};
 
@@ -66,7 +67,9 @@ impl Layer {
             || LeafForm::of_picture(&picture),
             |form| {
                 let mut form = form.clone();
-                form.add_stalk(&picture, STALK_PIECES);
+                let petiole = leaf.facts.body.and_then(|body| body.petiole);
+                let droop_deg = petiole.map_or(PETIOLE_DROOP_DEG, |petiole| petiole.droop_deg);
+                form.add_stalk(&picture, droop_deg, STALK_PIECES);
                 for (level, by) in form.levels.iter_mut().zip(WIDER) {
                     level.widen(by);
                 }

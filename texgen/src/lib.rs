@@ -66,7 +66,7 @@ pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};
 pub use folder::{
     BodyFacts, FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder,
-    LeafForm, MANIFEST_NAME, Manifest,
+    LeafForm, MANIFEST_NAME, Manifest, PetioleFacts,
 };
 pub use layer::Layer;
 pub use light_body::LightBody;

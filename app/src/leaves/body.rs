@@ -5,8 +5,8 @@
 use std::path::Path;
 
 use windfall_core::Scene;
-use windfall_core::scene::{Aerodynamics, FlightModel, NamedFiles, Planform, Species, limits};
-use windfall_texgen::{BodyFacts, LeafFacts, Manifest};
+use windfall_core::scene::{Aerodynamics, FlightModel, NamedFiles, PetioleRod, Planform, Species, limits};
+use windfall_texgen::{BodyFacts, LeafFacts, Manifest, PetioleFacts};
 
 use super::in_season;
 
@@ -24,8 +24,8 @@ pub fn load_scene(name: &str, allowed: NamedFiles) -> anyhow::Result<Scene> {
 }
 
 /// Gives every species that flies as a body, names a folder and states no planform the build of the folder's leaves
-/// of its season: mean area and mass, how the area lies and, if the leaves have meshes, how hollow they are. What the
-/// scene says of its moisture comes on top. A planform in the scene keeps all of the scene's own numbers. Whether
+/// of its season: mean area and mass, how the area lies, their petioles and, if the leaves have meshes, how hollow they are. What the
+/// scene says of its moisture and its petiole comes on top. A planform in the scene keeps all of the scene's own numbers. Whether
 /// there was such a species.
 ///
 /// # Errors
@@ -78,7 +78,20 @@ fn fit(species: &mut Species, leaves: &[&LeafFacts]) {
         // Pixels may fall a hair short of what any area must reach.
         extent: mean(|body| body.extent).max(limits::EXTENT.low),
     });
+    body.petiole = body.petiole.or_else(|| mean_petiole(&bodies)).or_else(|| species.shape.petiole());
     if leaves.iter().any(|leaf| leaf.has_mesh) {
         body.curl = mean(|body| body.curl);
     }
+}
+
+/// Mean of the petioles that a folder states.
+fn mean_petiole(bodies: &[BodyFacts]) -> Option<PetioleRod> {
+    let stated: Vec<PetioleFacts> = bodies.iter().filter_map(|body| body.petiole).collect();
+    let mean = |value: fn(&PetioleFacts) -> f32| stated.iter().map(value).sum::<f32>() / stated.len() as f32;
+    (!stated.is_empty()).then(|| PetioleRod {
+        base: mean(|petiole| petiole.base),
+        length: mean(|petiole| petiole.length),
+        mass: mean(|petiole| petiole.mass),
+        droop_deg: mean(|petiole| petiole.droop_deg),
+    })
 }

@@ -4,8 +4,6 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
-
 use crate::convert::{single, word};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
@@ -13,6 +11,7 @@ use crate::flight::coefficients::{
     ASYMMETRY_CURL, DRAG_BORNE, NORMAL_BEND, NORMAL_EDGE, NORMAL_RISE, SPIN_BORNE_RAD, SWING_BORNE_RAD,
     TANGENT_SPIN, TICKS_PER_S, TWIST_TORQUE,
 };
+use crate::flight::mass::MassDistribution;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Aerodynamics, FlightModel, Hold, STANDARD_GRAVITY_M_S2, Scene, Species};
 
@@ -35,27 +34,23 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
     // Air per mass and area, in 1/m.
     let air = AIR_DENSITY / areal;
     let radius = 0.5 * f64::from(species.size_m);
-    let planform = body.planform.unwrap_or_else(|| species.shape.planform());
+    let planform = species.planform();
     let stretch = libm::sqrt(f64::from(planform.aspect));
     let reach = radius * f64::from(planform.extent);
     let (along, across) = (reach * stretch, reach / stretch);
-    let (along2, across2) = (along * along, across * across);
     let (long, short) = (along.max(across), along.min(across));
     // Of an ellipse in potential flow.
     let flatness = libm::pow(short / long, 1.5);
     let elliptic = 1.0 + (PI / 2.0 - 1.0) * flatness;
     let added = 4.0 / 3.0 * air * long * short * short / (elliptic * radius * radius);
-    let offset =
-        DVec3::new(f64::from(body.mass_offset.1), -f64::from(body.curl), f64::from(body.mass_offset.0));
+    let mass = MassDistribution::of(species);
     let spread = f64::from(body.irregularity) * radius;
-    let [about_x, about_z] =
-        [body.gyration.0, body.gyration.1].map(|share| f64::from(share) * f64::from(share));
-    let inertia = DVec3::new(about_x * along2, about_x * along2 + about_z * across2, about_z * across2);
+    let inertia = mass.inertia * (radius * radius);
     let [air_x, air_z] = [(along, across), (across, along)]
         .map(|(sweeping, other)| added_inertia(sweeping, other) * air / (PI * radius * radius));
     // Angular rate, per speed, at which the flow swings the body about the axis that resists least.
     let broadside = f64::from(NORMAL_EDGE + NORMAL_RISE + NORMAL_BEND + 0.5 * body.edge_drag);
-    let lever = (broadside + f64::from(NORMAL_EDGE)) * air * (offset.length() * radius + spread);
+    let lever = (broadside + f64::from(NORMAL_EDGE)) * air * (mass.centre.length() * radius + spread);
     let swing = libm::sqrt((added + lever) / (inertia.x + air_x).min(inertia.z + air_z)) / SWING_BORNE_RAD;
     let spun = f64::from(TANGENT_SPIN) * air * long / DRAG_BORNE;
     let dt = f64::from(scene.dt_s);
@@ -83,7 +78,7 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
         air_inertia_z_m2: single(air_z),
         inertia_m2: inertia.to_array().map(single),
         pitch_damping: body.pitch_damping,
-        centroid_m: (offset * -radius).to_array().map(single),
+        centroid_m: (mass.centre * -radius).to_array().map(single),
         edge_drag: body.edge_drag,
         centroid_spread_m: [spread, ASYMMETRY_CURL * spread, spread].map(single),
         twist_spread_m: single(TWIST_TORQUE * air * spread),

@@ -18,6 +18,7 @@ use crate::device::leaf::petiole::{
     PETIOLE_LENGTH_UNIT, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS, petiole_bits,
 };
 use crate::error::SceneError;
+use crate::flight::mass::MassDistribution;
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, MAX_FOREST_SEGMENTS, Scene, Species, TreeKind};
@@ -39,8 +40,6 @@ const TURNING: f64 = 0.05;
 const FALL_DELAY: f64 = 0.12;
 /// Logarithm of what the strength loses in autumn.
 const WEAKENING: f64 = 6.0;
-/// Distance from the petiole's base to the blade's middle per diameter of the disc with the blade's area.
-const REACH_SHARE: f64 = 0.82;
 /// Most times its own area that a leaf on a twig is drawn with, standing for others.
 const LARGEST_CLUSTER: f64 = 16.0;
 /// Random words of a leaf site.
@@ -116,6 +115,14 @@ fn species_of<'a>(scene: &'a Scene, foliage: &Foliage) -> Option<(usize, &'a Spe
 fn leaf_facts(species: &Species) -> LeafFacts {
     let area_m2 = FRAC_PI_4 * f64::from(species.size_m) * f64::from(species.size_m);
     LeafFacts { area_m2, mass_kg: area_m2 * f64::from(species.areal_density_kg_m2) }
+}
+
+/// Distance from the twig to a leaf's centre of mass: what is no leaf hangs at the edge of its ellipse.
+fn twig_distance_m(species: &Species) -> f64 {
+    let planform = species.planform();
+    let edge = || f64::from(planform.extent) * libm::sqrt(f64::from(planform.aspect));
+    let far = species.petiole().map_or_else(edge, |petiole| f64::from(petiole.base + petiole.length));
+    0.5 * f64::from(species.size_m) * (far + MassDistribution::of(species).centre.z)
 }
 
 /// Time of the year at which a share of the leaves has turned.
@@ -198,7 +205,7 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
                 let pose = glam::Quat::from_array(branches.pose[row as usize]).as_dquat();
                 let foot = planted.foot_m.as_dvec3();
                 let slot = super::len32(petioles.len());
-                let length_m = f64::from(species.size_m) * REACH_SHARE;
+                let length_m = twig_distance_m(species);
                 let bits = petiole_bits(
                     super::len32(species_number),
                     leaf_site(scene, slot).0,

@@ -15,4 +15,5 @@
 pub mod block;
 pub mod coefficients;
 pub(crate) mod drop_table;
+pub mod mass;
 pub mod planform;

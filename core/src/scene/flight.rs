@@ -44,6 +44,30 @@ impl Default for Planform {
     }
 }
 
+/// Petiole of a body: a straight rod that goes out from the blade's base, away from the tip. The air does not feel it: it has a few
+/// hundredths of the blade's area and a tenth or two of its mass. Lengths are shares of the radius of the disc with the blade's area.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PetioleRod {
+    /// Distance of its upper end from the middle of the blade's area, 0 to 5.
+    pub base: f32,
+    /// Length, 0 to 10.
+    pub length: f32,
+    /// Share of the body's mass, 0 to 0.5.
+    pub mass: f32,
+    /// Angle in degrees by which it hangs below the plane of the blade, -90 to 90.
+    pub droop_deg: f32,
+}
+
+impl Default for PetioleRod {
+    fn default() -> Self {
+        Self { base: 1.0, length: 1.0, mass: 0.1, droop_deg: PETIOLE_DROOP_DEG }
+    }
+}
+
+/// Droop of the petioles of dry leaves in degrees. An assumption: no measurement of it was found.
+pub(super) const PETIOLE_DROOP_DEG: f32 = 15.0;
+
 /// A body, besides its size and mass per area, which are the species'. Lengths are shares of the radius of the disc
 /// with the body's area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,17 +75,19 @@ impl Default for Planform {
 pub struct Aerodynamics {
     /// Distribution of its area; as the species' shape has it when absent, or its folder of leaves.
     pub planform: Option<Planform>,
+    /// Its petiole; when absent, that of the species' shape or of its folder of leaves, and none if a planform is stated.
+    pub petiole: Option<PetioleRod>,
     /// Water that the leaf holds, as a share of its dry mass, 0 to 4: a fallen leaf has next to none, a green one up
     /// to 2. The species' areal density is that of the dry leaf.
     pub moisture: f32,
-    /// Centre of mass before the middle of the area: towards the tip, and towards the right, -1 to 1.
+    /// Centre of mass of the blade before the middle of its area: towards the tip, and towards the right, -1 to 1.
     pub mass_offset: (f32, f32),
     /// Hollow of the upper side, -1 to 1: how far the middle of the forces lies above the centre of mass.
     pub curl: f32,
     /// Twist of the blade about its length, -1 to 1: how much it turns like a propeller in a flow along its normal.
     pub twist: f32,
     /// Radii of gyration about the axes across and along, 0.05 to 1, as shares of the half length and the half width of the
-    /// ellipse: 0.5 for an even sheet, less for what has its mass in the middle.
+    /// ellipse, the petiole apart: 0.5 for an even sheet, less for what has its mass in the middle.
     pub gyration: (f32, f32),
     /// Drag edge-on, 0 to 1: 0.096 is that of paper, a thick seed adds to it.
     pub edge_drag: f32,
@@ -81,6 +107,7 @@ impl Aerodynamics {
     /// A flat dry body with its mass in the middle, as irregular as paper, well cut.
     pub(super) const FLAT: Self = Self {
         planform: None,
+        petiole: None,
         moisture: 0.0,
         mass_offset: (0.0, 0.0),
         curl: 0.0,

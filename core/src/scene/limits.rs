@@ -72,6 +72,10 @@ limits! {
 
     ASPECT: f32 = 0.1, 10.0, "", aspect;
     EXTENT: f32 = 1.0, 3.0, "", extent;
+    PETIOLE_BASE: f32 = 0.0, 5.0, "", base;
+    PETIOLE_LENGTH: f32 = 0.0, 10.0, "", length;
+    PETIOLE_MASS: f32 = 0.0, 0.5, "", mass;
+    DROOP_DEG: f32 = -90.0, 90.0, "degrees", droop_deg;
     MOISTURE: f32 = 0.0, 4.0, "", moisture;
     MASS_OFFSET: f32 = -1.0, 1.0, "", mass_offset;
     CURL: f32 = -1.0, 1.0, "", curl;

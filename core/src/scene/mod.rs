@@ -40,7 +40,7 @@ mod wind;
 use serde::{Deserialize, Serialize};
 
 pub use burning::Burning;
-pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
+pub use flight::{Aerodynamics, FlightModel, Hold, PetioleRod, Planform};
 pub use force::{Force, ForceCarriers, ForceKind, SwirlProfile};
 pub use ground::Ground;
 pub use jet::{Jet, JetKey};

@@ -4,7 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Aerodynamics, Burning, FlightModel, Litter, Planform};
+use super::flight::PETIOLE_DROOP_DEG;
+use super::{Aerodynamics, Burning, FlightModel, Litter, PetioleRod, Planform};
 use crate::motion::{Primitive, TransitionTable};
 
 /// Outline family of a leaf, or of another light body; texture makers paint one set of pictures for each.
@@ -55,6 +56,23 @@ impl LeafShape {
         };
         Planform { aspect, extent }
     }
+
+    /// Petiole of such a leaf, `None` of what is no leaf: base and length are means over outlines as leaves are made with,
+    /// which a test compares, the mass is that of a fallen, dry leaf.
+    pub fn petiole(self) -> Option<PetioleRod> {
+        let (base, length, mass) = match self {
+            Self::Maple => (0.57, 1.8, 0.14),
+            Self::Oak => (1.67, 0.16, 0.02),
+            Self::Birch => (1.06, 1.09, 0.065),
+            Self::Beech => (1.28, 0.27, 0.02),
+            Self::Linden => (0.74, 1.12, 0.09),
+            Self::Ginkgo => (1.06, 1.73, 0.12),
+            Self::JapaneseMaple => (0.58, 1.6, 0.1),
+            Self::Hornbeam => (1.31, 0.38, 0.03),
+            Self::Feather | Self::Paper | Self::Plate | Self::Samara => return None,
+        };
+        Some(PetioleRod { base, length, mass, droop_deg: PETIOLE_DROOP_DEG })
+    }
 }
 
 /// Surface of revolution about the vertical that a cone spiral lies on, down to the depth at which it has opened.
@@ -98,7 +116,7 @@ pub struct Species {
     pub size_variation: f32,
     /// Relative half width of the spread of falling speeds at equal size, 0 to 0.5; of bodies, size and asymmetries make it.
     pub speed_variation: f32,
-    /// Mass per area in kg/m², 0.005 to 2.
+    /// Mass per area of the blade in kg/m², petiole included, 0.005 to 2.
     pub areal_density_kg_m2: f32,
     /// The model that moves it. What follows down to `tables` is for [`FlightModel::Synthesis`] alone.
     pub flight: FlightModel,
@@ -147,6 +165,23 @@ impl Default for Species {
 }
 
 impl Species {
+    /// Planform of its leaves: the body's own, or that of the shape.
+    pub fn planform(&self) -> Planform {
+        match self.flight {
+            FlightModel::Aerodynamic(Aerodynamics { planform: Some(own), .. }) => own,
+            _ => self.shape.planform(),
+        }
+    }
+
+    /// Petiole of its leaves, if it has one.
+    pub fn petiole(&self) -> Option<PetioleRod> {
+        match self.flight {
+            FlightModel::Aerodynamic(Aerodynamics { petiole: Some(own), .. }) => Some(own),
+            FlightModel::Aerodynamic(Aerodynamics { planform: Some(_), .. }) => None,
+            _ => self.shape.petiole(),
+        }
+    }
+
     /// Water in kg per kg of dry leaf, with what the litter holds besides.
     pub(crate) fn moisture(&self, litter: Option<&Litter>) -> f64 {
         let own = match self.flight {

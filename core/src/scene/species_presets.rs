@@ -4,14 +4,8 @@
 
 use super::{Aerodynamics, FlightModel, LeafShape, Planform, Species};
 
-/// A dry leaf: slightly hollow and twisted, its mass towards the petiole, no two alike.
-const DRY: Aerodynamics = Aerodynamics {
-    mass_offset: (-0.03, 0.0),
-    curl: 0.04,
-    twist: 0.02,
-    irregularity: 0.06,
-    ..Aerodynamics::FLAT
-};
+/// A dry leaf: slightly hollow and twisted, with the petiole of its shape, no two alike.
+const DRY: Aerodynamics = Aerodynamics { curl: 0.04, twist: 0.02, irregularity: 0.06, ..Aerodynamics::FLAT };
 
 /// Curved along its shaft, which is heavier than the vane, and twisted: it winds down.
 const FEATHER: Aerodynamics =

@@ -135,6 +135,14 @@ impl Aerodynamics {
                 ("extent", planform.extent.into(), limits::EXTENT),
             ])?;
         }
+        if let Some(petiole) = self.petiole {
+            at.inside("petiole").numbers([
+                ("base", petiole.base.into(), limits::PETIOLE_BASE),
+                ("length", petiole.length.into(), limits::PETIOLE_LENGTH),
+                ("mass", petiole.mass.into(), limits::PETIOLE_MASS),
+                ("droop_deg", petiole.droop_deg.into(), limits::DROOP_DEG),
+            ])?;
+        }
         at.numbers([
             ("moisture", self.moisture.into(), limits::MOISTURE),
             ("mass_offset.0", self.mass_offset.0.into(), limits::MASS_OFFSET),

@@ -43,7 +43,7 @@ pub struct LeafFacts {
     pub mean_chord_m: f32,
     /// Side of the picture in metres.
     pub side_m: f32,
-    /// Planform and camber; none in older folders.
+    /// Planform, camber and petiole; none in older folders.
     #[serde(default)]
     pub body: Option<BodyFacts>,
     /// True if meshes lie beside the pictures.
@@ -67,6 +67,23 @@ pub struct BodyFacts {
     pub extent: f32,
     /// Hollow of the upper side in radii, -1 to 1; 0 if no mesh was made, see [`LeafForm::curl`](crate::LeafForm::curl).
     pub curl: f32,
+    /// Petiole; none in older folders, and of what is no leaf.
+    #[serde(default)]
+    pub petiole: Option<PetioleFacts>,
+}
+
+/// Petiole of a leaf. Lengths are in radii of the disc with the blade's area.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PetioleFacts {
+    /// Distance of its upper end from the middle of the blade's area.
+    pub base: f32,
+    /// Distance between its ends.
+    pub length: f32,
+    /// Share of the leaf's mass.
+    pub mass: f32,
+    /// Angle in degrees by which it hangs below the plane of the dry blade.
+    pub droop_deg: f32,
 }
 
 /// Only the version, whatever else the text holds.
@@ -142,11 +159,21 @@ impl Manifest {
                 }
             }
             let Some(body) = leaf.body else { continue };
-            for (name, value, (low, high), allowed) in [
+            let blade = [
                 ("aspect", body.aspect, (0.01, 100.0), "0.01 to 100"),
                 ("extent", body.extent, (0.9, 10.0), "0.9 to 10"),
                 ("curl", body.curl, (-1.0, 1.0), "-1 to 1"),
-            ] {
+            ];
+            let petiole = body.petiole.map(|petiole| {
+                [
+                    ("petiole.base", petiole.base, (0.0, 5.0), "0 to 5"),
+                    ("petiole.length", petiole.length, (0.0, 10.0), "0 to 10"),
+                    ("petiole.mass", petiole.mass, (0.0, 0.5), "0 to 0.5"),
+                    ("petiole.droop_deg", petiole.droop_deg, (-90.0, 90.0), "-90 to 90"),
+                ]
+            });
+            for (name, value, (low, high), allowed) in blade.into_iter().chain(petiole.into_iter().flatten())
+            {
                 if !(low..=high).contains(&value) {
                     return refuse(field(&format!("body.{name}")), value.to_string(), allowed);
                 }

@@ -22,7 +22,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use crate::LeafMaps;
 use crate::regular_file;
 pub use error::FolderError;
-pub use manifest::{BodyFacts, FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest};
+pub use manifest::{BodyFacts, FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest, PetioleFacts};
 pub use mesh_file::{FormLevel, FormShape, LeafForm};
 
 /// Largest file of text in bytes: a manifest or meshes of a leaf.

@@ -13,7 +13,12 @@ fn sample() -> LeafFolder {
             mass_kg: 0.000_2,
             mean_chord_m: 0.04,
             side_m: 0.1,
-            body: Some(BodyFacts { aspect: 1.8, extent: 1.06, curl: 0.1 }),
+            body: Some(BodyFacts {
+                aspect: 1.8,
+                extent: 1.06,
+                curl: 0.1,
+                petiole: Some(PetioleFacts { base: 1.1, length: 0.8, mass: 0.1, droop_deg: 15.0 }),
+            }),
             has_mesh: true,
         },
         maps: LeafMaps {

@@ -16,8 +16,9 @@ const REACH: f32 = 0.12;
 const ROOM: f32 = 1.8;
 
 impl LeafForm {
-    /// Adds a ribbon of so many pieces for each level. A leaf whose picture shows no petiole stays as it is.
-    pub(crate) fn add_stalk(&mut self, picture: &RgbaImage, pieces: [usize; 3]) {
+    /// Adds a ribbon of so many pieces for each level, which hangs so far below a dry blade. A leaf whose picture shows no petiole
+    /// stays as it is.
+    pub(crate) fn add_stalk(&mut self, picture: &RgbaImage, droop_deg: f32, pieces: [usize; 3]) {
         let Some(level) = self.levels.last() else { return };
         let Some(root) = level.positions.first().map(|root| Vec2::from(*root)) else { return };
         let stalk = largest_patch(picture, level);
@@ -28,15 +29,16 @@ impl LeafForm {
         }
         for (level, pieces) in self.levels.iter_mut().zip(pieces) {
             if pieces > 0 {
-                level.add_ribbon(&rungs(&stalk, root, pieces, 1.0 / picture.width() as f32));
+                let droop = libm::tanf(droop_deg.clamp(-80.0, 80.0).to_radians());
+                level.add_ribbon(&rungs(&stalk, root, pieces, 1.0 / picture.width() as f32), droop);
             }
         }
     }
 }
 
 impl FormLevel {
-    /// Appends a ribbon of rungs; it goes on as the blade lies at its first corner.
-    fn add_ribbon(&mut self, rungs: &[[Vec2; 2]]) {
+    /// Appends a ribbon of rungs, from the blade's first corner on; `droop` is the slope by which it falls on a dry blade.
+    fn add_ribbon(&mut self, rungs: &[[Vec2; 2]], droop: f32) {
         let root = Vec2::from(self.positions[0]);
         let first = u32::try_from(self.positions.len()).unwrap_or(0);
         self.positions.extend(rungs.iter().flatten().map(|p| p.to_array()));
@@ -47,11 +49,7 @@ impl FormLevel {
         for shape in &mut self.shapes {
             let dry = 1.0 - shape.water;
             let start = Vec3::from(shape.offsets[0]);
-            let offset = |p: &Vec2| {
-                // A dry petiole bends down a little.
-                let far = p.distance(root);
-                (start - Vec3::Z * (0.5 * dry * far * far)).to_array()
-            };
+            let offset = |p: &Vec2| (start - Vec3::Z * (droop * dry * p.distance(root))).to_array();
             shape.offsets.extend(rungs.iter().flatten().map(offset));
         }
     }
@@ -156,7 +154,7 @@ mod tests {
         let level = FormLevel { positions, triangles, shapes };
         let mut form = LeafForm { levels: vec![level.clone(), level.clone(), level] };
         let before = form.levels[2].triangles.len();
-        form.add_stalk(&picture(), [0, 2, 5]);
+        form.add_stalk(&picture(), 20.0, [0, 2, 5]);
         assert_eq!(form.levels[0].triangles.len(), before, "no ribbon was asked for");
         let level = &form.levels[2];
         assert_eq!(level.triangles.len(), before + 12, "two for each of five pieces and the end");
@@ -164,14 +162,19 @@ mod tests {
         let left = largest_patch(&picture(), level);
         assert!(left.len() < 20, "{} texels of the petiole are not covered", left.len());
         let tip = level.shapes[0].offsets.last().expect("corners");
-        assert!(tip[2] < 0.1 && tip[2] > -0.1, "its end hangs a little lower: {tip:?}");
+        let far = Vec2::from(*level.positions.last().expect("corners")).distance(Vec2::splat(0.5));
+        assert!(
+            (0.1 - tip[2] - far * 20.0f32.to_radians().tan()).abs() < 1e-4,
+            "its end hangs 20 degrees low: {tip:?}"
+        );
+        assert!(far > 0.4, "it is long: {far}");
     }
 
     #[test]
     fn a_leaf_without_petiole_stays_as_it_is() {
         let mut form = LeafForm::of_picture(&picture());
         let before = form.clone();
-        form.add_stalk(&picture(), [1, 2, 5]);
+        form.add_stalk(&picture(), 20.0, [1, 2, 5]);
         assert_eq!(form, before, "the sheet covers all");
     }
 }

@@ -11,6 +11,10 @@ use crate::lab;
 use crate::maps::PetioleColour;
 use crate::{Blade, DrawnLeaf, Extraction, OutlineModel, Shape, Specimen, TexgenError};
 
+/// Leaves that are drawn to learn how long the petioles of a kind are, and the side of their pictures in pixels.
+const DRAWN_PETIOLES: u64 = 8;
+const DRAWN_SIZE_PX: u32 = 128;
+
 /// Source of a maker's outlines and veins.
 pub(super) enum Manner {
     /// As a kind of leaf.
@@ -20,12 +24,20 @@ pub(super) enum Manner {
 }
 
 impl Manner {
-    /// Learns outlines from examples, and veins too unless a kind of leaf is given for them.
-    pub(super) fn learned(examples: &[Specimen], shape: Option<Shape>) -> Result<Self, TexgenError> {
+    /// Learns outlines from photos, and veins too unless a kind of leaf is given for them. Where no photo shows a petiole, they
+    /// are as long as that kind's.
+    pub(super) fn learned(photos: &[Extraction], shape: Option<Shape>) -> Result<Self, TexgenError> {
+        let examples: Vec<Specimen> = photos.iter().map(|photo| photo.specimen.clone()).collect();
         let blades: Vec<Blade> = examples.iter().map(|example| example.blade.clone()).collect();
-        let habit = shape.map_or_else(|| habit_of(examples), Habit::of);
+        let habit = shape.map_or_else(|| habit_of(&examples), Habit::of);
+        let mut petioles: Vec<f32> = photos.iter().filter_map(petiole_length).collect();
+        if let Some(shape) = shape.filter(|_| petioles.is_empty()) {
+            petioles = (0..DRAWN_PETIOLES)
+                .map(|seed| shape.draw(DRAWN_SIZE_PX, seed).map(|leaf| drawn_petiole_length(&leaf)))
+                .collect::<Result<_, _>>()?;
+        }
         Ok(Self::Learned {
-            outlines: OutlineModel::from_blades(&blades)?,
+            outlines: OutlineModel::from_blades(&blades)?.with_petioles(&petioles),
             habit,
             name: shape.map_or("leaf", shape_name),
         })
@@ -62,6 +74,23 @@ impl Manner {
             Self::Learned { outlines, .. } => outlines.draw(size_px, seed),
         }
     }
+}
+
+/// Length in √A of the petiole that a photo shows.
+fn petiole_length(photo: &Extraction) -> Option<f32> {
+    let (stalk, blade) = (&photo.petiole, &photo.specimen.blade);
+    let far = (0..stalk.inside.len()).filter(|at| stalk.inside[*at]).map(|at| {
+        let (x, y) = (at % stalk.width as usize, at / stalk.width as usize);
+        blade.root.distance(Vec2::new(x as f32 + 0.5, y as f32 + 0.5))
+    });
+    let side = (blade.mask.area().max(1) as f32).sqrt();
+    far.reduce(f32::max).map(|far| far / side)
+}
+
+/// Length in √A of the petiole of a leaf that has been drawn.
+fn drawn_petiole_length(leaf: &DrawnLeaf) -> f32 {
+    let side = (leaf.blade.mask.area().max(1) as f32).sqrt();
+    leaf.petiole.first().map_or(0.0, |(end, _)| end.distance(leaf.blade.root) / side)
 }
 
 /// A shape's name in lower case with hyphens.

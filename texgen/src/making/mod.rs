@@ -19,12 +19,13 @@ use crate::{
 };
 pub use assortment::Assortment;
 pub use facts::Build;
+pub(crate) use facts::PETIOLE_DROOP_DEG;
 use manner::{Manner, stem_of};
 use turning::Turning;
 
 /// Changes with every change of what [`LeafMaker`] makes of equal options: whoever keeps leaves keeps them under this
 /// number and makes them again under another. Raise it with any change to outlines, veins, colours or maps.
-pub const RECIPE: u32 = 3;
+pub const RECIPE: u32 = 4;
 
 /// Season of leaves that nobody asked a season for.
 const MID_AUTUMN: f32 = 0.5;
@@ -140,7 +141,7 @@ impl LeafMaker {
         }
         let look = season::pigments(kind, season).appearance();
         let clearness = look.transmitted(look.reflectance);
-        let manner = Manner::learned(&examples, shape)?;
+        let manner = Manner::learned(photos, shape)?;
         let build = shape.map_or_else(Build::default, Build::of);
         Ok(Self { options, season, painter, manner, stems, build, turning, clearness })
     }
@@ -180,7 +181,7 @@ impl LeafMaker {
         let clearness = self.clearness;
         let dressed = Dressed { blade, veins: &veins, petiole, colour: &painted.colour, stem, clearness };
         let maps = LeafMaps::new(&dressed)?;
-        let facts = self.build.facts(self.manner.name(), number, self.season, &drawn, &maps, &mut rng);
+        let facts = self.build.facts(self.manner.name(), number, self.season, &drawn, &mut rng);
         Ok(MadeLeaf { facts, maps, stages: painted.stages })
     }
 }

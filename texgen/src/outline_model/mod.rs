@@ -36,6 +36,10 @@ const COMPARED_SIDE: f32 = 64.0;
 const BORDER: f32 = 0.03;
 /// Corners of a drawn outline may be left out within this distance in √A.
 const TOLERANCE: f32 = 0.0015;
+/// Shortest and longest petiole in √A without an example to learn it from.
+const PETIOLES: (f32, f32) = (0.16, 0.3);
+/// Least half width of the range of their lengths, as a share of the mean.
+const PETIOLE_SPREAD: f32 = 0.12;
 /// Attempts with ever smaller warps before an example is taken as it is.
 const ATTEMPTS: u64 = 8;
 /// Smallest picture that can be drawn, in pixels.
@@ -50,6 +54,8 @@ pub struct OutlineModel {
     amplitude: f32,
     /// Standard deviation of the logarithm of length by width.
     slender: f32,
+    /// Shortest and longest petiole in √A.
+    petioles: (f32, f32),
 }
 
 impl OutlineModel {
@@ -67,9 +73,22 @@ impl OutlineModel {
             let allowed = "at least one outline that does not cross itself, with root and tip apart";
             return Err(TexgenError::out_of_range("blades", blades.len(), allowed));
         }
-        let mut model = Self { examples, amplitude: DEFAULT_AMPLITUDE, slender: LEAST_SLENDER };
+        let mut model =
+            Self { examples, amplitude: DEFAULT_AMPLITUDE, slender: LEAST_SLENDER, petioles: PETIOLES };
         model.learn_spread();
         Ok(model)
+    }
+
+    /// Draws petioles as long as examples of them, given in √A of their blades; with none it stays as it was.
+    #[must_use]
+    pub fn with_petioles(mut self, lengths: &[f32]) -> Self {
+        if !lengths.is_empty() {
+            let mean = lengths.iter().sum::<f32>() / lengths.len() as f32;
+            let (low, high) = lengths.iter().fold((mean, mean), |(low, high), l| (low.min(*l), high.max(*l)));
+            let least = PETIOLE_SPREAD * mean;
+            self.petioles = (low.min(mean - least), high.max(mean + least));
+        }
+        self
     }
 
     /// Sets amplitude and slenderness to what the examples show.
@@ -121,12 +140,12 @@ impl OutlineModel {
             let warp = Warp::draw(&mut rng, centroid(&ring), self.amplitude * share, slender);
             let warped: Vec<Vec2> = ring.iter().map(|p| warp.apply(*p)).collect();
             if !crosses_itself(&warped) {
-                return Ok(placed(&warped, tip, size_px, &mut rng.fork(1)));
+                return Ok(placed(&warped, tip, self.petioles, size_px, &mut rng.fork(1)));
             }
         }
         let whole = &self.examples[usize::try_from(seed % self.examples.len() as u64).unwrap_or(0)];
         let (ring, tip) = whole.joined();
-        Ok(placed(&ring, tip, size_px, &mut rng.fork(ATTEMPTS)))
+        Ok(placed(&ring, tip, self.petioles, size_px, &mut rng.fork(ATTEMPTS)))
     }
 
     /// One example as it is or mirrored, or halves of two.
@@ -144,10 +163,10 @@ impl OutlineModel {
     }
 }
 
-/// Puts an outline (root first, y up) with a petiole into a square picture.
-fn placed(ring: &[Vec2], tip: usize, size_px: u32, rng: &mut Rng) -> DrawnLeaf {
+/// Puts an outline (root first, y up) with a petiole, whose length in √A is within a range, into a square picture.
+fn placed(ring: &[Vec2], tip: usize, petioles: (f32, f32), size_px: u32, rng: &mut Rng) -> DrawnLeaf {
     let side = (twice_area(ring).abs() / 2.0).sqrt();
-    let stalk = petiole(ring[0], side, rng);
+    let stalk = petiole(ring[0], side, side * rng.range(petioles.0, petioles.1), rng);
     let everything = || ring.iter().chain(stalk.iter().map(|(p, _)| p)).copied();
     let (low, high) =
         (everything().fold(Vec2::INFINITY, Vec2::min), everything().fold(Vec2::NEG_INFINITY, Vec2::max));
@@ -165,10 +184,9 @@ fn placed(ring: &[Vec2], tip: usize, size_px: u32, rng: &mut Rng) -> DrawnLeaf {
     DrawnLeaf { blade, petiole: stalk.into_iter().rev().map(|(p, half)| (place(p), half * scale)).collect() }
 }
 
-/// A stalk below a root, bent to one side and thicker at its end.
-fn petiole(root: Vec2, side: f32, rng: &mut Rng) -> Vec<(Vec2, f32)> {
+/// A stalk below a root, bent to one side and thicker at its end; `side` is √A of the blade.
+fn petiole(root: Vec2, side: f32, length: f32, rng: &mut Rng) -> Vec<(Vec2, f32)> {
     const STEPS: u16 = 12;
-    let length = side * rng.range(0.16, 0.3);
     let (lean, bend) = (0.15 * rng.bell(), 0.25 * rng.bell());
     let at = |step: u16| {
         let t = f32::from(step) / f32::from(STEPS);
@@ -270,6 +288,21 @@ mod tests {
         assert!(error.to_string().contains("at least one outline"), "{error}");
         let model = OutlineModel::from_blades(&[toothed(12, 0.8)]).expect("one example");
         assert!(model.draw(31, 0).is_err(), "too small");
+    }
+
+    #[test]
+    fn petioles_are_as_long_as_the_examples() {
+        let plain = OutlineModel::from_blades(&[toothed(20, 0.6), toothed(24, 0.7)]).expect("two examples");
+        let length = |model: &OutlineModel, seed: u64| {
+            let leaf = model.draw(256, seed).expect("in range");
+            let (end, _) = leaf.petiole[0];
+            end.distance(leaf.blade.root) / (leaf.blade.mask.area() as f32).sqrt()
+        };
+        for (examples, allowed) in [(&[][..], 0.15..0.35), (&[0.9], 0.75..1.1), (&[0.4, 1.4], 0.35..1.55)] {
+            let model = plain.clone().with_petioles(examples);
+            let drawn: Vec<f32> = (0..12).map(|seed| length(&model, seed)).collect();
+            assert!(drawn.iter().all(|l| allowed.contains(l)), "{examples:?}: {drawn:?}");
+        }
     }
 
     #[test]

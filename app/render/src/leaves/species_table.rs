@@ -8,8 +8,9 @@ use image::RgbaImage;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use windfall_core::blocks::BurnBlock;
 use windfall_core::device::leaf::burn::burnt_share;
+use windfall_core::flight::mass::MassDistribution;
 use windfall_core::layout::Uint4;
-use windfall_core::scene::{FlightModel, LeafShape, MAX_SPECIES, Species};
+use windfall_core::scene::{LeafShape, MAX_SPECIES, Species};
 use windfall_core::{Scene, shared_struct};
 use windfall_texgen::{Atlas, BurnMap, Layer};
 
@@ -220,17 +221,16 @@ fn halves(low: f32, high: f32) -> u32 {
 impl SpeciesRow {
     /// Size of a species, where the middle of its area lies, and its folds.
     pub fn of(species: &Species) -> Self {
-        let (ahead, right) = match species.flight {
-            FlightModel::Synthesis => (0.0, 0.0),
-            FlightModel::Aerodynamic(body) => body.mass_offset,
-        };
+        let mass = MassDistribution::of(species).centre;
+        #[expect(clippy::cast_possible_truncation, reason = "shares of a radius")]
+        let offset = |share: f64| (-0.5 * share) as f32;
         let folds = match species.shape {
             LeafShape::Plate => 0.0,
             LeafShape::Samara => 0.2,
             LeafShape::Paper => 0.5,
             _ => 1.0,
         };
-        Self { diameter_m: species.size_m, offset_x: -0.5 * right, offset_z: -0.5 * ahead, folds }
+        Self { diameter_m: species.size_m, offset_x: offset(mass.x), offset_z: offset(mass.z), folds }
     }
 }
 

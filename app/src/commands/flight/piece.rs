@@ -225,11 +225,7 @@ impl Piece {
 
     /// Planform.
     pub(super) fn planform(&self) -> Planform {
-        let own = match self.species.flight {
-            FlightModel::Aerodynamic(body) => body.planform,
-            FlightModel::Synthesis => None,
-        };
-        own.unwrap_or_else(|| self.species.shape.planform())
+        self.species.planform()
     }
 
     /// Planform of the outline in a file, and the diameter of the disc with its area when it is one metre long.
@@ -285,7 +281,7 @@ fn measured(corners: &[DVec2], size: f64) -> (Planform, f64) {
 
 #[cfg(test)]
 mod tests {
-    use windfall_texgen::{BodyFacts, FOLDER_VERSION, LeafFacts, Manifest};
+    use windfall_texgen::{BodyFacts, FOLDER_VERSION, LeafFacts, Manifest, PetioleFacts};
 
     use super::*;
 
@@ -360,7 +356,8 @@ mod tests {
     #[test]
     fn folders_of_leaves_have_the_numbers_of_their_leaves() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let body = Some(BodyFacts { aspect: 1.5, extent: 1.2, curl: 0.1 });
+        let petiole = Some(PetioleFacts { base: 0.9, length: 1.5, mass: 0.2, droop_deg: 25.0 });
+        let body = Some(BodyFacts { aspect: 1.5, extent: 1.2, curl: 0.1, petiole });
         let leaf = |name: &str, area_m2: f32| LeafFacts {
             name: name.into(),
             season: 1.0,
@@ -380,5 +377,7 @@ mod tests {
         let FlightModel::Aerodynamic(found) = piece.species.flight else { panic!("a body") };
         assert_eq!((found.curl, found.twist), (0.1, 0.03), "its own curl, the twist of maples");
         assert_eq!(found.planform, Some(Planform { aspect: 1.5, extent: 1.2 }), "measured");
+        let rod = found.petiole.expect("as the folder says");
+        assert_eq!((rod.base, rod.length, rod.mass, rod.droop_deg), (0.9, 1.5, 0.2, 25.0), "its petiole");
     }
 }

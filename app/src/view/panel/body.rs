@@ -3,13 +3,13 @@
 //! A body in the air: how its area and mass lie, and how it is held.
 
 use egui::Ui;
-use windfall_core::scene::{Aerodynamics, Hold, Planform, limits};
+use windfall_core::scene::{Aerodynamics, Hold, LeafShape, PetioleRod, Planform, limits};
 
 use super::field::{choice, field};
 
-/// `shape` is the planform that the species' shape has.
-pub(super) fn show(ui: &mut Ui, body: &mut Aerodynamics, own: Option<&Aerodynamics>, shape: Planform) {
-    let options = [("by its shape", None), ("as stated", Some(shape))];
+/// `shape` is the species'.
+pub(super) fn show(ui: &mut Ui, body: &mut Aerodynamics, own: Option<&Aerodynamics>, shape: LeafShape) {
+    let options = [("by its shape", None), ("as stated", Some(shape.planform()))];
     let tip = "How its area lies: as the species' shape has it, or its folder of leaves, or as stated here";
     choice(ui, "Planform", tip, &mut body.planform, own.map(|own| &own.planform), &options);
     if let Some(planform) = &mut body.planform {
@@ -23,6 +23,7 @@ pub(super) fn show(ui: &mut Ui, body: &mut Aerodynamics, own: Option<&Aerodynami
         let tip = "How far the area reaches out: 1 for every ellipse, lobes make it larger";
         field("Extent", tip, limits::EXTENT).show(ui, &mut planform.extent, own.map(|own| own.extent));
     }
+    petiole(ui, &mut body.petiole, own.map(|own| &own.petiole), shape);
     let tip = "Water as a share of the dry mass: a fallen leaf has next to none, a green one up to 2";
     field("Moisture", tip, limits::MOISTURE).show(ui, &mut body.moisture, own.map(|own| own.moisture));
     let (ahead, right) = (&mut body.mass_offset.0, &mut body.mass_offset.1);
@@ -59,4 +60,25 @@ pub(super) fn show(ui: &mut Ui, body: &mut Aerodynamics, own: Option<&Aerodynami
     );
     let tip = "Half width of the spread of its tilt then";
     field("Tilt spread", tip, limits::TILT_DEG).show(ui, &mut body.tilt_deg, own.map(|own| own.tilt_deg));
+}
+
+fn petiole(
+    ui: &mut Ui,
+    petiole: &mut Option<PetioleRod>,
+    own: Option<&Option<PetioleRod>>,
+    shape: LeafShape,
+) {
+    let options = [("by its shape", None), ("as stated", Some(shape.petiole().unwrap_or_default()))];
+    let tip = "That of its shape or its folder of leaves, none if the planform is stated, or as stated here";
+    choice(ui, "Petiole", tip, petiole, own, &options);
+    let Some(rod) = petiole else { return };
+    let own = own.copied().flatten();
+    let tip = "Distance of its upper end from the middle of the blade's area, as a share of the radius";
+    field("Petiole base", tip, limits::PETIOLE_BASE).show(ui, &mut rod.base, own.map(|own| own.base));
+    let tip = "Length as a share of the radius";
+    field("Petiole length", tip, limits::PETIOLE_LENGTH).show(ui, &mut rod.length, own.map(|own| own.length));
+    let tip = "Share of the leaf's mass";
+    field("Petiole mass", tip, limits::PETIOLE_MASS).show(ui, &mut rod.mass, own.map(|own| own.mass));
+    let tip = "How far it hangs below the plane of the blade";
+    field("Petiole droop", tip, limits::DROOP_DEG).show(ui, &mut rod.droop_deg, own.map(|own| own.droop_deg));
 }

@@ -64,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
             FlightModel::Aerodynamic(body) => Some(body),
             FlightModel::Synthesis => None,
         });
-        body::show(ui, body, own, species.shape.planform());
+        body::show(ui, body, own, species.shape);
         return;
     }
     let tip = "Fastest spin about the leaf's own normal, either way round";

@@ -252,7 +252,7 @@ fn leaves(all: &Path) {
         mass_kg: 0.0003,
         mean_chord_m: 0.04,
         side_m: 0.1,
-        body: Some(BodyFacts { aspect: 1.5, extent: 1.1, curl: 0.2 }),
+        body: Some(BodyFacts { aspect: 1.5, extent: 1.1, curl: 0.2, petiole: None }),
         has_mesh: true,
     };
     let manifest = |leaves: Vec<LeafFacts>| {

@@ -56,6 +56,10 @@ prop_compose! {
 prop_compose! {
     fn aerodynamics()(
         planform in option::of((within(limits::ASPECT), within(limits::EXTENT))),
+        rod in option::of((
+            within(limits::PETIOLE_BASE), within(limits::PETIOLE_LENGTH), within(limits::PETIOLE_MASS),
+            within(limits::DROOP_DEG),
+        )),
         (moisture, curl, twist) in (within(limits::MOISTURE), within(limits::CURL), within(limits::TWIST)),
         mass_offset in (within(limits::MASS_OFFSET), within(limits::MASS_OFFSET)),
         (irregularity, tilt_deg) in (within(limits::IRREGULARITY), within(limits::TILT_DEG)),
@@ -64,8 +68,9 @@ prop_compose! {
         hold in select(vec![Hold::Random, Hold::Broadside, Hold::EdgeOn]),
     ) -> Aerodynamics {
         let planform = planform.map(|(aspect, extent)| Planform { aspect, extent });
+        let petiole = rod.map(|(base, length, mass, droop_deg)| PetioleRod { base, length, mass, droop_deg });
         Aerodynamics {
-            planform, moisture, mass_offset, curl, twist, gyration, edge_drag, pitch_damping, irregularity, hold, tilt_deg,
+            planform, petiole, moisture, mass_offset, curl, twist, gyration, edge_drag, pitch_damping, irregularity, hold, tilt_deg,
         }
     }
 }
