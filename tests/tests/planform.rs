@@ -69,14 +69,14 @@ fn shapes_have_the_mean_planform_of_their_outlines() {
 }
 
 /// Base and length of a drawn petiole in radii of the disc with the blade's area.
-fn petiole(shape: Shape, seed: u64) -> (f32, f32) {
+fn petiole(shape: Shape, seed: u64) -> (f64, f64) {
     let leaf = shape.draw(SIDE_PX, seed).expect("an allowed size");
     let corners: Vec<DVec2> = leaf.blade.outline.iter().map(|corner| corner.as_dvec2()).collect();
     let found = Planform::of_outline(&corners).expect("a leaf has an area");
     let radius = (found.area / std::f64::consts::PI).sqrt();
     let root = leaf.blade.root.as_dvec2();
     let (end, _) = leaf.petiole[0];
-    ((root.distance(found.centroid) / radius) as f32, (root.distance(end.as_dvec2()) / radius) as f32)
+    (root.distance(found.centroid) / radius, root.distance(end.as_dvec2()) / radius)
 }
 
 #[test]
@@ -85,13 +85,16 @@ fn shapes_have_the_mean_petioles_of_their_leaves() {
     let names = LEAF_SHAPES.map(|(leaf, _)| leaf);
     for (shape, drawn) in LEAF_SHAPES {
         let found: Vec<_> = (0..OUTLINES).map(|seed| petiole(drawn, u64::from(seed))).collect();
-        let mean = |value: fn(&(f32, f32)) -> f32| found.iter().map(value).sum::<f32>() / f32::from(OUTLINES);
+        let mean = |value: fn(&(f64, f64)) -> f64| found.iter().map(value).sum::<f64>() / f64::from(OUTLINES);
         let (base, length) = (mean(|petiole| petiole.0), mean(|petiole| petiole.1));
         let stated = shape.petiole().expect("leaves have petioles");
         // Folders of made leaves state the same shares and angles.
         let facts = made_petiole(drawn);
         let agrees = (facts.mass, facts.droop_deg) == (stated.mass, stated.droop_deg);
-        if (base - stated.base).abs() > 0.03 || (length - stated.length).abs() > 0.03 || !agrees {
+        if (base - f64::from(stated.base)).abs() > 0.03
+            || (length - f64::from(stated.length)).abs() > 0.03
+            || !agrees
+        {
             wrong.push(format!("{shape:?}: {base:.3}, {length:.3}, {facts:?}, stated {stated:?}"));
         }
     }

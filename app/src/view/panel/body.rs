@@ -3,7 +3,7 @@
 //! A body in the air: how its area and mass lie, and how it is held.
 
 use egui::Ui;
-use windfall_core::scene::{Aerodynamics, Hold, LeafShape, PetioleRod, Planform, limits};
+use windfall_core::scene::{Aerodynamics, Hold, LeafShape, PetioleRod, limits};
 
 use super::field::{choice, field};
 
