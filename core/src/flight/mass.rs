@@ -75,7 +75,7 @@ mod tests {
         let droop = f64::from(rod.droop_deg).to_radians();
         for piece in 0..1000 {
             let far = f64::from(rod.length) * (f64::from(piece) + 0.5) / 1000.0;
-            let at = DVec3::new(0.0, -far * droop.sin(), -f64::from(rod.base) - far * droop.cos());
+            let at = DVec3::new(0.0, -far * libm::sin(droop), -f64::from(rod.base) - far * libm::cos(droop));
             points.push((at, f64::from(rod.mass) / 1000.0));
         }
         let centre: DVec3 = points.iter().map(|(at, mass)| *at * *mass).sum();

@@ -272,7 +272,7 @@ fn check(scene: &Scene, atlas: &Atlas, layer_limit: u32) -> Result<(), RenderErr
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::scene::Aerodynamics;
+    use windfall_core::scene::{Aerodynamics, FlightModel};
 
     use super::*;
     use crate::tests::disc_atlas;
