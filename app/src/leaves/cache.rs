@@ -21,18 +21,26 @@ pub(super) fn load_or_make(assortment: &Assortment, progress: &LeafProgress) -> 
     load_or_make_in(directory().as_deref(), assortment, progress)
 }
 
-/// The same with a given cache directory, or none.
+/// The leaves of an assortment if they are in the cache.
+pub(super) fn load(assortment: &Assortment) -> Option<LeafFolder> {
+    load_from(&directory()?.join(key(assortment)), assortment)
+}
+
+fn load_from(place: &Path, assortment: &Assortment) -> Option<LeafFolder> {
+    let fits = |folder: &LeafFolder| {
+        folder.size_px == assortment.size_px && folder.leaves.len() == assortment.count as usize
+    };
+    LeafFolder::load(place).ok().filter(fits)
+}
+
+/// The same as [`load_or_make`] with a given cache directory, or none.
 pub(super) fn load_or_make_in(
     cache: Option<&Path>,
     assortment: &Assortment,
     progress: &LeafProgress,
 ) -> anyhow::Result<LeafFolder> {
     let place = cache.map(|cache| cache.join(key(assortment)));
-    let fits = |folder: &LeafFolder| {
-        folder.size_px == assortment.size_px && folder.leaves.len() == assortment.count as usize
-    };
-    let kept = place.as_deref().and_then(|place| LeafFolder::load(place).ok()).filter(fits);
-    if let Some(folder) = kept {
+    if let Some(folder) = place.as_deref().and_then(|place| load_from(place, assortment)) {
         return Ok(folder);
     }
     let made = AtomicU32::new(0);

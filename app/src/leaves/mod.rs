@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The leaf pictures of a scene: from folders that its species name, or made once and kept.
+//! The leaf pictures of a scene: from folders that its species name, or made once and kept; until then small ones that come with the
+//! program.
 
 mod body;
 mod cache;
@@ -11,7 +12,9 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
 use windfall_render::MAX_LAYERS;
-use windfall_texgen::{Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, Shape};
+use windfall_texgen::{
+    Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, READY_SIZE_PX, Shape, ready_layers,
+};
 
 /// Pictures of each species.
 const VARIANTS: u32 = 12;
@@ -32,26 +35,87 @@ pub type LeafProgress = dyn Fn(u32, u32) + Sync;
 /// # Errors
 /// A folder that a species names and that cannot be used. Leaves that are made cannot fail for want of a cache.
 pub fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result<Atlas> {
-    let most = MAX_LAYERS / scene.species.len().max(1);
+    let size_px = made_size(scene);
+    let most = most_variants(scene);
+    let make = |species: &Species, shape| {
+        let folder = cache::load_or_make(&assortment(species, shape, size_px), progress)?;
+        Ok(layers_of(&folder, species, size_px, most))
+    };
+    assembled(scene, size_px, &folders(scene)?, &make)
+}
+
+/// The pictures and meshes that a scene can be drawn with at once, and true if they are those of [`atlas_of`]: small leaves that come with
+/// the program stand for those that would have to be made.
+///
+/// # Errors
+/// A folder that a species names and that cannot be used.
+pub(crate) fn atlas_at_once(scene: &Scene) -> anyhow::Result<(Atlas, bool)> {
+    atlas_of_kept(scene, &cache::load)
+}
+
+/// The same with leaves that `kept` may have.
+fn atlas_of_kept(
+    scene: &Scene,
+    kept: &dyn Fn(&Assortment) -> Option<LeafFolder>,
+) -> anyhow::Result<(Atlas, bool)> {
+    let size_px = made_size(scene);
+    let most = most_variants(scene);
+    // Before any leaf is unpacked, so that a folder that cannot be used is refused first.
+    let mut folders = folders(scene)?;
+    let mut is_complete = true;
+    for (species, folder) in scene.species.iter().zip(&mut folders) {
+        if let (None, Kind::Leaf(shape)) = (&folder, kind_of(species.shape)) {
+            *folder = kept(&assortment(species, shape, size_px));
+            is_complete &= folder.is_some();
+        }
+    }
+    let size_px = if is_complete { size_px } else { READY_SIZE_PX };
+    let ready = |species: &Species, shape| {
+        let mut layers = ready_layers(shape, species.season);
+        layers.truncate(most);
+        Ok(layers)
+    };
+    Ok((assembled(scene, size_px, &folders, &ready)?, is_complete))
+}
+
+/// Most pictures of each species of a scene.
+fn most_variants(scene: &Scene) -> usize {
+    MAX_LAYERS / scene.species.len().max(1)
+}
+
+/// Side of the pictures that are made for a scene.
+fn made_size(scene: &Scene) -> u32 {
     let is_large = scene.species.len() * VARIANTS as usize <= LARGE_PICTURES;
-    let size_px = if is_large { PICTURE_SIZE } else { SMALL_SIZE };
-    // Before any leaf is made, which takes long: so a folder that cannot be used is refused at once.
-    let folders = scene
-        .species
-        .iter()
-        .map(|species| species.leaves.as_ref().map(|path| LeafFolder::load(path.as_ref())).transpose());
-    let folders = folders.collect::<Result<Vec<_>, _>>()?;
+    if is_large { PICTURE_SIZE } else { SMALL_SIZE }
+}
+
+/// The folder of each species that names one. They are read before any leaf is made, which takes long: so a folder that cannot be
+/// used is refused at once.
+fn folders(scene: &Scene) -> anyhow::Result<Vec<Option<LeafFolder>>> {
+    let folder =
+        |species: &Species| species.leaves.as_ref().map(|path| LeafFolder::load(path.as_ref())).transpose();
+    Ok(scene.species.iter().map(folder).collect::<Result<_, _>>()?)
+}
+
+/// Layers of a folder's leaves that are in season.
+fn layers_of(folder: &LeafFolder, species: &Species, size_px: u32, most: usize) -> Vec<Layer> {
+    let leaves = in_season(&folder.leaves, species.season);
+    leaves[..leaves.len().min(most)].par_iter().map(|leaf| Layer::of_leaf(leaf, size_px)).collect()
+}
+
+/// Pictures of all species; `leaves_of` has those of leaves without a folder.
+fn assembled(
+    scene: &Scene,
+    size_px: u32,
+    folders: &[Option<LeafFolder>],
+    leaves_of: &dyn Fn(&Species, Shape) -> anyhow::Result<Vec<Layer>>,
+) -> anyhow::Result<Atlas> {
+    let most = most_variants(scene);
     let mut kinds: Vec<Vec<Layer>> = Vec::with_capacity(scene.species.len());
-    for (species, folder) in scene.species.iter().zip(&folders) {
-        let of_folder = |folder: &LeafFolder| {
-            let leaves = in_season(&folder.leaves, species.season);
-            leaves[..leaves.len().min(most)].par_iter().map(|leaf| Layer::of_leaf(leaf, size_px)).collect()
-        };
+    for (species, folder) in scene.species.iter().zip(folders) {
         kinds.push(match (folder, kind_of(species.shape)) {
-            (Some(folder), _) => of_folder(folder),
-            (None, Kind::Leaf(shape)) => {
-                of_folder(&cache::load_or_make(&assortment(species, shape, size_px), progress)?)
-            }
+            (Some(folder), _) => layers_of(folder, species, size_px, most),
+            (None, Kind::Leaf(shape)) => leaves_of(species, shape)?,
             (None, Kind::Other(body)) => painted(body, size_px)?,
         });
     }

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, MeanSpeed, NamedFiles, Planform, Release, Source, SourceShape, WindParameters,
+    Aerodynamics, FlightModel, LeafShape, MeanSpeed, NamedFiles, Planform, Release, Source, SourceShape,
+    WindParameters,
 };
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -65,6 +66,26 @@ fn a_species_can_name_a_folder() {
     scene.species[0].leaves = Some("/nowhere".into());
     let error = atlas_of(&scene, &|_, _| ()).expect_err("no such folder").to_string();
     assert!(error.contains("/nowhere") && error.contains(MANIFEST_NAME), "{error}");
+}
+
+#[test]
+fn small_leaves_stand_for_those_that_would_have_to_be_made() {
+    let species = |shape| Species { shape, ..Species::default() };
+    let kinds = [LeafShape::Birch, LeafShape::Plate].map(species);
+    let scene = Scene { species: kinds.to_vec(), ..Scene::default() };
+    let (small, is_complete) = atlas_of_kept(&scene, &|_| None).expect("nothing to read");
+    assert!(!is_complete, "birch leaves have to be made");
+    assert_eq!(small.size_px, READY_SIZE_PX, "small ones until then");
+    assert_eq!(small.layers.len(), 2 * small.variants as usize, "both species");
+    let made = few().make(|| {}).expect("allowed numbers");
+    let kept = |_: &Assortment| Some(made.clone());
+    let (whole, is_complete) = atlas_of_kept(&scene, &kept).expect("nothing to read");
+    assert!(is_complete && whole.size_px == PICTURE_SIZE, "those that are kept, in full size");
+    let plates = Scene { species: vec![species(LeafShape::Plate)], ..Scene::default() };
+    assert!(atlas_of_kept(&plates, &|_| None).expect("nothing to read").1, "plates are painted at once");
+    let missing = Species { leaves: Some("/nowhere".into()), ..Species::default() };
+    let scene = Scene { species: vec![missing], ..Scene::default() };
+    assert!(atlas_of_kept(&scene, &|_| None).is_err(), "a folder that is not there");
 }
 
 /// A scene of one body whose folder's leaves have so many times the mass that they were made with.

@@ -9,15 +9,16 @@ use windfall_core::{CompiledScene, Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
 use windfall_render::{RenderScene, Renderer, RendererOptions};
+use windfall_texgen::Atlas;
 use windfall_wgpu::Gpu;
 
 use super::Viewer;
 use crate::leaves;
-use crate::run::progress::making_leaves;
 use crate::view::panel::action::Action;
 use crate::view::session::change::Change;
 use crate::view::window::dropped::{Dropped, dropped};
 use crate::view::window::event_loop::title;
+use crate::view::window::leaf_making::pictures_at_once;
 use crate::view::window::scene_folder;
 
 /// A scene, and what it was when it was loaded.
@@ -165,7 +166,8 @@ impl Viewer {
         let compiled = world.as_ref().map_or(self.session.compiled(), |world| &world.compiled);
         if change.picture {
             let (format, size) = (self.screen.format(), self.renderer.size());
-            self.renderer = renderer_of(&self.gpu, compiled, &scene, format, size)?;
+            let atlas = pictures_at_once(&mut self.leaf_making, &scene)?;
+            self.renderer = renderer_of(&self.gpu, compiled, &scene, &atlas, format, size)?;
         } else if change.view {
             self.renderer.update_scene_view(&scene.view)?;
         } else if change.lens {
@@ -203,12 +205,12 @@ pub(super) fn renderer_of(
     gpu: &Gpu,
     compiled: &CompiledScene,
     scene: &Scene,
+    atlas: &Atlas,
     format: wgpu::TextureFormat,
     size: (u32, u32),
 ) -> anyhow::Result<Renderer> {
-    let atlas = leaves::atlas_of(scene, &making_leaves())?;
     let scene_trees = SceneTrees::of(scene, compiled.forest());
-    let render_scene = RenderScene::of(scene, compiled, &scene_trees, &atlas);
+    let render_scene = RenderScene::of(scene, compiled, &scene_trees, atlas);
     let options = RendererOptions::for_scene(scene);
     Ok(Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?)
 }

@@ -8,6 +8,7 @@ mod editing;
 pub(crate) mod event_loop;
 mod gui;
 mod instruments;
+mod leaf_making;
 mod recording;
 mod recovery;
 mod scene_folder;
@@ -29,10 +30,13 @@ use winit::window::Window;
 
 use self::editing::{Document, renderer_of};
 use self::instruments::Instruments;
+use self::leaf_making::{ASK_AGAIN, LeafMaking, pictures_at_once};
+use crate::leaves;
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
 use crate::run::planned_loss::lose_if_planned;
+use crate::run::progress::making_leaves;
 use crate::run::terminal;
 use crate::view::panel::Panel;
 use crate::view::panel::action::Action;
@@ -81,6 +85,8 @@ pub(crate) struct Viewer {
     /// Action that takes building anew, and the number of frames until then: a message announces it.
     building: Option<(Action, u8)>,
     renderer: Renderer,
+    /// Leaves that are being made, while small ones are shown.
+    leaf_making: Option<LeafMaking>,
     camera: Camera,
     /// True if the camera follows the scene's keys, if it has any: until the user moves it.
     follows_path: bool,
@@ -120,7 +126,14 @@ impl Viewer {
             Drawing::choose(&options.backend, &instance, Some(&surface))?;
         let screen = Screen::new(Arc::clone(&window), surface, &adapter, &gpu)?;
         let session = Session::new(scene.clone(), world, &device, gpu.clone())?;
-        let renderer = renderer_of(&gpu, &world.compiled, scene, screen.format(), screen.size())?;
+        let mut leaf_making = None;
+        // A picture that is to be saved shows the leaves that it would show next time too.
+        let atlas = if screenshot.is_some() {
+            leaves::atlas_of(scene, &making_leaves())?
+        } else {
+            pictures_at_once(&mut leaf_making, session.scene())?
+        };
+        let renderer = renderer_of(&gpu, &world.compiled, scene, &atlas, screen.format(), screen.size())?;
         let gui = Gui::new(&window, &gpu, screen.format());
         gpu.check()?;
         if let Some(reason) = reason {
@@ -145,6 +158,7 @@ impl Viewer {
             building: None,
             session,
             renderer,
+            leaf_making,
             meter: Meter::new(),
             message: None,
             screenshot,
@@ -204,6 +218,7 @@ impl Viewer {
         self.moment = if self.was_idle { LensMoment::FIRST } else { self.moment.after(passed_s) };
         self.has_news = false;
         self.build_what_was_announced()?;
+        self.take_made_leaves()?;
         let since = Instant::now();
         self.simulate(frame_s)?;
         self.meter.add(Stage::Simulate, since);
@@ -256,7 +271,8 @@ impl Viewer {
         // A message has to go away again.
         let message_ends = self.message.as_ref().map(|(_, since)| *since + MESSAGE_TIME);
         let panel_wants = now.checked_add(painting.again_after);
-        match [message_ends, panel_wants].into_iter().flatten().min() {
+        let leaves_may_be_made = self.leaf_making.as_ref().map(|_| now + ASK_AGAIN);
+        match [message_ends, panel_wants, leaves_may_be_made].into_iter().flatten().min() {
             None => Next::Event,
             Some(time) if time <= now => Next::Frame,
             Some(time) => Next::At(time),

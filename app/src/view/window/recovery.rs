@@ -8,6 +8,7 @@ use super::editing::renderer_of;
 use super::{Next, Viewer};
 use crate::run::drawing::Drawing;
 use crate::run::terminal;
+use crate::view::window::leaf_making::pictures_at_once;
 use crate::view::window::screen::Screen;
 
 /// Times that a device may be lost before the window gives up.
@@ -31,7 +32,8 @@ impl Viewer {
         self.screen.reopen(surface, &adapter, &gpu)?;
         self.session.recover(gpu.clone())?;
         let (compiled, scene) = (self.session.compiled(), self.session.scene());
-        self.renderer = renderer_of(&gpu, compiled, scene, self.screen.format(), size)?;
+        let atlas = pictures_at_once(&mut self.leaf_making, scene)?;
+        self.renderer = renderer_of(&gpu, compiled, scene, &atlas, self.screen.format(), size)?;
         self.gui.reopen(&self.window, &gpu, self.screen.format());
         self.instruments.reopen(gpu.device());
         self.gpu = gpu;
