@@ -243,7 +243,7 @@ fn burning_leaves_rise() {
         }
     }
     assert!(highest_m > 1.0, "{highest_m} m");
-    assert!(peak_kw > 5.0 && peak_kw < 1.5 * power_kw, "fed with {peak_kw} kW of {power_kw} kW");
+    assert!(peak_kw > 0.2 * power_kw && peak_kw < 1.5 * power_kw, "fed with {peak_kw} kW of {power_kw} kW");
 }
 
 /// Without a fire nothing becomes hot; by its ignition temperature a leaf that stands at the edge of one does not catch.

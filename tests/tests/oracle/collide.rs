@@ -14,20 +14,21 @@ use windfall_core::device::leaf::collide::{
 };
 use windfall_core::device::leaf::record::{AERODYNAMIC, STATE_FALLING, flies, place_bits, size_ratio};
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Gusts, Litter, MeanSpeed, Release, Source, SourceShape, Species, Turbulence,
-    WindParameters,
+    Aerodynamics, FlightModel, Gusts, LeafShape, Litter, MeanSpeed, Release, Source, SourceShape, Species,
+    Turbulence, WindParameters,
 };
 use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
-/// Leaves that are let go at once in still air, within a box, and fly as bodies.
+/// Leaves without petioles, which do not glide, let go at once in still air, within a box, as bodies.
 fn cloud(leaves: u32, half_extent_m: Point) -> Scene {
+    let bare = Aerodynamics { planform: Some(LeafShape::Maple.planform()), ..Aerodynamics::default() };
     let mut scene = Scene {
         species: vec![Species {
             size_m: 0.06,
             size_variation: 0.2,
             areal_density_kg_m2: 0.05,
-            flight: FlightModel::Aerodynamic(Aerodynamics::default()),
+            flight: FlightModel::Aerodynamic(bare),
             ..Species::default()
         }],
         wind: WindParameters {
