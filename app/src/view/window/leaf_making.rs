@@ -8,6 +8,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::thread;
 use std::time::Duration;
 
+use rayon::ThreadPoolBuilder;
 use windfall_core::Scene;
 use windfall_texgen::Atlas;
 
@@ -20,7 +21,7 @@ pub(super) const ASK_AGAIN: Duration = Duration::from_millis(200);
 /// Beginning of the line that says how far the leaves are.
 const SMALL_LEAVES: &str = "Small leaves for now: larger ones are being made";
 
-/// Pictures to draw a scene with at once. Those that have to be made are begun, unless that is being done.
+/// Pictures to draw a scene with at once. Those that have to be made are planned, unless that is being done.
 ///
 /// # Errors
 /// A folder of leaves that cannot be used.
@@ -29,7 +30,7 @@ pub(super) fn pictures_at_once(making: &mut Option<LeafMaking>, scene: &Arc<Scen
     if is_complete {
         *making = None;
     } else if making.as_ref().is_none_or(|making| making.scene.species != scene.species) {
-        *making = Some(LeafMaking::begin(Arc::clone(scene))?);
+        *making = Some(LeafMaking::of(Arc::clone(scene)));
     }
     Ok(atlas)
 }
@@ -71,39 +72,53 @@ impl Viewer {
     }
 }
 
-/// A thread that makes the leaves of a scene. Dropped, it goes on to fill the cache, and nobody takes what it makes.
+/// Leaves of a scene to be made by a thread. Dropped, it goes on to fill the cache, and nobody takes what it makes.
 pub(super) struct LeafMaking {
     scene: Arc<Scene>,
     /// Leaves of the species that is at hand: made, and all.
     progress: Arc<[AtomicU32; 2]>,
-    done: Receiver<anyhow::Result<Atlas>>,
+    /// None until it has begun.
+    done: Option<Receiver<anyhow::Result<Atlas>>>,
 }
 
 impl LeafMaking {
-    pub(super) fn begin(scene: Arc<Scene>) -> anyhow::Result<Self> {
-        let progress = Arc::new([AtomicU32::new(0), AtomicU32::new(0)]);
+    fn of(scene: Arc<Scene>) -> Self {
+        Self { scene, progress: Arc::default(), done: None }
+    }
+
+    /// Begins, on half of the processors, so that the window can still be steered.
+    ///
+    /// # Errors
+    /// A system that has no threads left.
+    pub(super) fn begin(&mut self) -> anyhow::Result<()> {
+        if self.done.is_some() {
+            return Ok(());
+        }
+        let half = thread::available_parallelism().map_or(1, |count| count.get().div_ceil(2));
+        let pool = ThreadPoolBuilder::new().num_threads(half).build()?;
         let (sender, done) = channel();
-        let (shown, wanted) = (Arc::clone(&progress), Arc::clone(&scene));
+        let (shown, scene) = (Arc::clone(&self.progress), Arc::clone(&self.scene));
         thread::Builder::new().name("leaf making".into()).spawn(move || {
-            let atlas = leaves::atlas_of(&wanted, &move |made, count| {
+            let progress = move |made, count| {
                 shown[0].store(made, Ordering::Relaxed);
                 shown[1].store(count, Ordering::Relaxed);
-            });
+            };
             // A window that has gone takes nothing.
-            let _ = sender.send(atlas);
+            let _ = sender.send(pool.install(|| leaves::atlas_of(&scene, &progress)));
         })?;
-        Ok(Self { scene, progress, done })
+        self.done = Some(done);
+        Ok(())
     }
 
     /// The pictures, once they are made.
     ///
     /// # Errors
     /// Leaves that cannot be made.
-    pub(super) fn take(&self) -> anyhow::Result<Option<Atlas>> {
-        match self.done.try_recv() {
-            Ok(atlas) => atlas.map(Some),
-            Err(TryRecvError::Empty) => Ok(None),
-            Err(TryRecvError::Disconnected) => Err(anyhow::anyhow!("the leaves could not be made")),
+    fn take(&self) -> anyhow::Result<Option<Atlas>> {
+        match self.done.as_ref().map(Receiver::try_recv) {
+            Some(Ok(atlas)) => atlas.map(Some),
+            None | Some(Err(TryRecvError::Empty)) => Ok(None),
+            Some(Err(TryRecvError::Disconnected)) => Err(anyhow::anyhow!("the leaves could not be made")),
         }
     }
 
@@ -125,12 +140,18 @@ mod tests {
 
     use super::*;
 
+    fn begun(species: Species) -> LeafMaking {
+        let mut making = LeafMaking::of(Arc::new(Scene { species: vec![species], ..Scene::default() }));
+        assert!(making.take().expect("not begun").is_none(), "nothing is made before it begins");
+        making.begin().expect("a thread");
+        making
+    }
+
     #[test]
     fn pictures_come_once_they_are_made() {
         // A plate is painted in no time.
         let species = Species { shape: LeafShape::Plate, ..Species::default() };
-        let making = LeafMaking::begin(Arc::new(Scene { species: vec![species], ..Scene::default() }))
-            .expect("a thread");
+        let making = begun(species);
         let since = Instant::now();
         let atlas = loop {
             if let Some(atlas) = making.take().expect("it is painted") {
@@ -147,8 +168,7 @@ mod tests {
     #[test]
     fn a_folder_that_is_not_there_is_an_error() {
         let species = Species { leaves: Some("/nowhere".into()), ..Species::default() };
-        let making = LeafMaking::begin(Arc::new(Scene { species: vec![species], ..Scene::default() }))
-            .expect("a thread");
+        let making = begun(species);
         let since = Instant::now();
         let error = loop {
             match making.take() {

@@ -244,6 +244,8 @@ impl Viewer {
             self.window.pre_present_notify();
             let queue = self.gpu.queue();
             self.meter.measure(Stage::Wait, || queue.present(texture));
+            // Not before there is something to see.
+            self.leaf_making.as_mut().map_or(Ok(()), LeafMaking::begin)?;
         }
         if self.screenshot.as_mut().is_some_and(Screenshot::is_due) {
             self.take_screenshot(&painting)?;
