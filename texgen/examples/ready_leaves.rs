@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 use std::{env, fs};
 
-use windfall_texgen::{Shape, make_ready};
+use windfall_texgen::{ReadyFiles, Shape};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(env::args().nth(1).ok_or("usage: ready_leaves FOLDER")?);
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("linden", Shape::Linden),
         ("ginkgo", Shape::Ginkgo),
     ] {
-        let files = make_ready(shape)?;
+        let files = ReadyFiles::make(shape)?;
         println!("{name}: {} bytes of pictures, {} of meshes", files.sheet.len(), files.forms.len());
         fs::write(folder.join(name).with_extension("png"), files.sheet)?;
         fs::write(folder.join(name).with_extension("forms"), files.forms)?;

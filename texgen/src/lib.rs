@@ -74,7 +74,7 @@ pub use light_body::LightBody;
 pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};
 pub use maps::LeafMaps;
 pub use outline_model::OutlineModel;
-pub use ready::{READY_SIZE_PX, ReadyFiles, make_ready, ready_layers};
+pub use ready::{READY_SIZE_PX, ReadyFiles, ReadyLeaves};
 pub use shape::Shape;
 pub use specimen::Specimen;
 pub use synthesis::{Painted, Painter, Stage};

@@ -30,6 +30,10 @@ const MAGIC: [u8; 4] = *b"WFLV";
 const UNITS: f32 = 16384.0;
 const ZERO: f32 = 16384.0;
 
+/// Leaves of a kind, unpacked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadyLeaves(Vec<ReadyLeaf>);
+
 /// Files of a kind of ready leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadyFiles {
@@ -39,48 +43,62 @@ pub struct ReadyFiles {
     pub forms: Vec<u8>,
 }
 
-/// Leaves of a shape, the nearest to a stretch of the season, as layers of [`READY_SIZE_PX`].
-pub fn ready_layers(shape: Shape, (earliest, latest): (f32, f32)) -> Vec<Layer> {
-    let files = embedded(shape);
-    let leaves = unpack(files.0, files.1).expect("a test unpacks every file that is embedded");
-    let away = |season: f32| (earliest - season).max(season - latest).max(0.0);
-    let least = leaves.iter().map(|leaf| away(leaf.season)).fold(f32::INFINITY, f32::min);
-    leaves
-        .into_iter()
-        .filter(|leaf| away(leaf.season) <= least)
-        .map(|leaf| {
-            Layer::assembled(leaf.picture, leaf.surface, Some(&leaf.form), PETIOLE_DROOP_DEG, leaf.season)
-        })
-        .collect()
-}
-
-/// Makes the leaves of a shape and packs them.
-///
-/// # Errors
-/// [`TexgenError`] if a leaf cannot be made.
-pub fn make_ready(shape: Shape) -> Result<ReadyFiles, TexgenError> {
-    let mut leaves = Vec::new();
-    for (number, season) in (0..).step_by(LEAVES as usize).zip(SEASONS) {
-        let options = MakeOptions { size_px: MADE_SIZE_PX, season: Some(season), seed: SEED };
-        let maker = LeafMaker::of_shape(shape, options)?;
-        for number in number..number + LEAVES {
-            let made = maker.make(number, false)?;
-            let form = maker.form(number)?;
-            let leaf = FolderLeaf { facts: made.facts, maps: made.maps, form: None };
-            let (picture, surface) = Layer::pictures_of(&leaf, READY_SIZE_PX);
-            leaves.push(ReadyLeaf { season, picture, surface, form });
-        }
-    }
-    Ok(pack(&leaves))
-}
-
-/// A leaf, unpacked.
 #[derive(Clone, Debug, PartialEq)]
 struct ReadyLeaf {
     season: f32,
     picture: RgbaImage,
     surface: RgbaImage,
     form: LeafForm,
+}
+
+impl ReadyLeaves {
+    /// The leaves of a shape that come with the program.
+    pub fn of(shape: Shape) -> Self {
+        let (sheet, forms) = embedded(shape);
+        Self::from_bytes(sheet, forms).expect("a test unpacks every file that is embedded")
+    }
+
+    /// The leaves of [`ReadyFiles`]; `None` if they are not of this format and recipe.
+    pub fn from_bytes(sheet: &[u8], forms: &[u8]) -> Option<Self> {
+        unpack(sheet, forms).map(Self)
+    }
+
+    /// Those nearest to a stretch of the season, as layers of [`READY_SIZE_PX`].
+    pub fn layers(&self, (earliest, latest): (f32, f32)) -> Vec<Layer> {
+        let away = |leaf: &&ReadyLeaf| (earliest - leaf.season).max(leaf.season - latest).max(0.0);
+        let least = self.0.iter().map(|leaf| away(&leaf)).fold(f32::INFINITY, f32::min);
+        let nearest = self.0.iter().filter(|leaf| away(leaf) <= least);
+        nearest.map(ReadyLeaf::layer).collect()
+    }
+}
+
+impl ReadyLeaf {
+    fn layer(&self) -> Layer {
+        let (picture, surface) = (self.picture.clone(), self.surface.clone());
+        Layer::assembled(picture, surface, Some(&self.form), PETIOLE_DROOP_DEG, self.season)
+    }
+}
+
+impl ReadyFiles {
+    /// Makes the leaves of a shape and packs them.
+    ///
+    /// # Errors
+    /// [`TexgenError`] if a leaf cannot be made.
+    pub fn make(shape: Shape) -> Result<Self, TexgenError> {
+        let mut leaves = Vec::new();
+        for (number, season) in (0..).step_by(LEAVES as usize).zip(SEASONS) {
+            let options = MakeOptions { size_px: MADE_SIZE_PX, season: Some(season), seed: SEED };
+            let maker = LeafMaker::of_shape(shape, options)?;
+            for number in number..number + LEAVES {
+                let made = maker.make(number, false)?;
+                let form = maker.form(number)?;
+                let leaf = FolderLeaf { facts: made.facts, maps: made.maps, form: None };
+                let (picture, surface) = Layer::pictures_of(&leaf, READY_SIZE_PX);
+                leaves.push(ReadyLeaf { season, picture, surface, form });
+            }
+        }
+        Ok(pack(&leaves))
+    }
 }
 
 /// Sheet and meshes of a shape.
@@ -222,10 +240,11 @@ mod tests {
     fn every_kind_has_leaves_of_every_season() {
         for shape in Shape::ALL {
             let (sheet, forms) = embedded(shape);
-            let leaves = unpack(sheet, forms).expect("made by this recipe: run scripts/ready-leaves");
-            assert_eq!(leaves.len(), SEASONS.len() * LEAVES as usize, "{shape:?}");
+            let leaves =
+                ReadyLeaves::from_bytes(sheet, forms).expect("made by this recipe: run scripts/ready-leaves");
+            assert_eq!(leaves.0.len(), SEASONS.len() * LEAVES as usize, "{shape:?}");
             for (season, nearest) in [((0.0, 0.0), 2), ((0.3, 0.7), 4), ((0.5, 0.5), 2), ((0.0, 1.0), 8)] {
-                let layers = ready_layers(shape, season);
+                let layers = leaves.layers(season);
                 assert_eq!(layers.len(), nearest, "{shape:?} in {season:?}");
                 for layer in layers {
                     assert!((0.1..0.9).contains(&layer.area_fraction), "{shape:?}: {}", layer.area_fraction);
@@ -238,7 +257,7 @@ mod tests {
     #[test]
     fn they_are_what_is_made_now() {
         // The leaf with the fewest veins is made in the shortest time.
-        let made = make_ready(Shape::Ginkgo).expect("it grows");
+        let made = ReadyFiles::make(Shape::Ginkgo).expect("it grows");
         let (sheet, forms) = embedded(Shape::Ginkgo);
         assert!(made.forms == forms, "other meshes: run scripts/ready-leaves");
         let pictures = |sheet: &[u8]| image::load_from_memory(sheet).expect("a picture").into_rgba8();

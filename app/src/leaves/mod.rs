@@ -13,7 +13,7 @@ use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
 use windfall_render::MAX_LAYERS;
 use windfall_texgen::{
-    Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, READY_SIZE_PX, Shape, ready_layers,
+    Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, READY_SIZE_PX, ReadyLeaves, Shape,
 };
 
 /// Pictures of each species.
@@ -71,7 +71,7 @@ fn atlas_of_kept(
     }
     let size_px = if is_complete { size_px } else { READY_SIZE_PX };
     let ready = |species: &Species, shape| {
-        let mut layers = ready_layers(shape, species.season);
+        let mut layers = ReadyLeaves::of(shape).layers(species.season);
         layers.truncate(most);
         Ok(layers)
     };
