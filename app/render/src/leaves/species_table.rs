@@ -296,7 +296,8 @@ mod tests {
             offset_z,
             folds,
         };
-        let body = Aerodynamics { mass_offset: (0.6, -0.2), ..Aerodynamics::default() };
+        let planform = Some(LeafShape::Maple.planform());
+        let body = Aerodynamics { planform, mass_offset: (0.6, -0.2), ..Aerodynamics::default() };
         let species = Species { flight: FlightModel::Aerodynamic(body), ..Species::default() };
         assert_eq!(
             SpeciesRow::of(&species),
