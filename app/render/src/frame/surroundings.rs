@@ -145,7 +145,7 @@ pub(crate) struct Surroundings {
     /// Light of the sky on matt surfaces.
     ambient: [Vec3; 9],
     /// Haze.
-    haze: Haze,
+    pub(crate) haze: Haze,
     /// Centre of the park, on the ground.
     pub(crate) park_center: Vec3,
     /// Its path.
@@ -154,9 +154,12 @@ pub(crate) struct Surroundings {
 
 impl Surroundings {
     pub(crate) fn new(view: &View, park_center: Vec3, path: Path) -> Result<Self, MapError> {
-        let daylight = Daylight::new(view)?;
+        Ok(Self::of(Daylight::new(view)?, view.haze, park_center, path))
+    }
+
+    pub(crate) fn of(daylight: Daylight, haze: Haze, park_center: Vec3, path: Path) -> Self {
         let ambient = SphericalHarmonics::of(&daylight.sky).white_surface();
-        Ok(Self { daylight, ambient, haze: view.haze, park_center, path })
+        Self { daylight, ambient, haze, park_center, path }
     }
 
     /// The uniform block of one frame.

@@ -60,10 +60,22 @@ impl Daylight {
     /// # Errors
     /// A file that cannot be used.
     pub(crate) fn of_picture(map: &SkyMap) -> Result<Self, MapError> {
-        let whole = EnvironmentMap::of_picture(Picture::read(&map.path)?).turned(map.rotation_deg);
+        Ok(Self::of_pixels(map, Picture::read(&map.path)?))
+    }
+
+    /// The same of a picture whose bytes the caller has: of `map` the path is the name that errors give it.
+    ///
+    /// # Errors
+    /// Bytes that cannot be used.
+    pub fn of_picture_bytes(map: &SkyMap, bytes: &[u8]) -> Result<Self, MapError> {
+        Ok(Self::of_pixels(map, Picture::from_bytes(&map.path, bytes)?))
+    }
+
+    fn of_pixels(map: &SkyMap, picture: Picture) -> Self {
+        let whole = EnvironmentMap::of_picture(picture).turned(map.rotation_deg);
         let whole = whole.map(|_, radiance| radiance * map.intensity_kcd_m2);
         let (sun, sky) = take_sun(&whole);
-        Ok(Self { sun, sky, seen: whole, is_picture: true, cloud_cover: 0.0, clouds: [Vec3::ZERO; 2] })
+        Self { sun, sky, seen: whole, is_picture: true, cloud_cover: 0.0, clouds: [Vec3::ZERO; 2] }
     }
 
     /// Sun and sky as the model has them.

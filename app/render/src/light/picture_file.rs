@@ -37,12 +37,23 @@ impl Picture {
     /// # Errors
     /// A file that cannot be read, is of another kind, broken or too large, or holds what is no light.
     pub(super) fn read(path: &str) -> Result<Self, MapError> {
-        let bytes = read_file(path)?;
+        Self::from_bytes(path, &read_file(path)?)
+    }
+
+    /// The same from the bytes of a file; `path` is the name that errors give it.
+    ///
+    /// # Errors
+    /// Bytes of another kind, broken or too many, or that hold what is no light.
+    pub(super) fn from_bytes(path: &str, bytes: &[u8]) -> Result<Self, MapError> {
+        let length = bytes.len() as u64;
+        if length > MAX_BYTES {
+            return Err(MapError::Bytes { file: path.into(), length, allowed: MAX_BYTES });
+        }
         if bytes.starts_with(b"#?") {
-            Self::decode(path, HdrDecoder::new_nonstrict(Cursor::new(&bytes)))
+            Self::decode(path, HdrDecoder::new_nonstrict(Cursor::new(bytes)))
         } else if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-            check_layers(path, &bytes)?;
-            Self::decode(path, OpenExrDecoder::with_alpha_preference(Cursor::new(&bytes), Some(false)))
+            check_layers(path, bytes)?;
+            Self::decode(path, OpenExrDecoder::with_alpha_preference(Cursor::new(bytes), Some(false)))
         } else {
             Err(MapError::Kind { file: path.into() })
         }

@@ -15,6 +15,7 @@ use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
 use crate::leaves::visible::VisibleLeaves;
 use crate::lens::motion::Motion;
+use crate::light::Daylight;
 use crate::marks::landing_count::LandingCount;
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
@@ -48,20 +49,30 @@ impl Renderer {
     /// A picture of a sky that cannot be used; the renderer keeps its own.
     pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
         let Surroundings { park_center, path, .. } = self.surroundings;
-        let before = self.surroundings.daylight.sun.direction;
-        self.surroundings = Surroundings::new(view, park_center, path)?;
-        let daylight = &self.surroundings.daylight;
-        if daylight.sun.direction != before {
-            self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
-        }
-        self.light.set_sky(&self.device, &self.queue, daylight);
+        self.surround(Surroundings::new(view, park_center, path)?);
         self.set_lens(view.lens);
-        self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {
             self.make_trails(view.trail_s);
         }
         Ok(())
+    }
+
+    /// Takes over another sun and sky.
+    pub fn set_daylight(&mut self, daylight: Daylight) {
+        let Surroundings { haze, park_center, path, .. } = self.surroundings;
+        self.surround(Surroundings::of(daylight, haze, park_center, path));
+    }
+
+    fn surround(&mut self, surroundings: Surroundings) {
+        let before = self.surroundings.daylight.sun.direction;
+        self.surroundings = surroundings;
+        let daylight = &self.surroundings.daylight;
+        if daylight.sun.direction != before {
+            self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
+        }
+        self.light.set_sky(&self.device, &self.queue, daylight);
+        self.shade_is_old = true;
     }
 
     /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still.
