@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// What a link carries behind its #: scene, leaves, step, camera.
+// Contents of a link behind its #: scene, leaves, step, camera.
 
 /** Most characters of a scene in a link; browsers and mail cut off longer ones. */
 const MOST_PACKED = 64 << 10;
@@ -58,7 +58,7 @@ function whole(fields, name, least) {
   return number;
 }
 
-/** What a fragment asks for: { scene, ron, file, leaves, step, camera, isPlaying }. */
+/** Request of a fragment: { scene, ron, file, leaves, step, camera, isPlaying }. */
 export function read(fragment) {
   const fields = new URLSearchParams(fragment.replace(/^#/, ''));
   const known = ['scene', 'ron', 'file', 'leaves', 'step', 'camera', 'play'];

@@ -183,7 +183,7 @@ function describe() {
   at('play').setAttribute('aria-label', pace.isPlaying ? 'Pause' : 'Play');
 }
 
-/** What prints the same fingerprint. */
+/** Command that prints the same fingerprint. */
 function command() {
   const quoted = /^[\w.-]+$/.test(player.name()) ? player.name() : `'${player.name().replaceAll("'", "'\\''")}'`;
   const leaves = player.leaves() === player.own_leaves() ? '' : ` --leaves ${player.leaves()}`;
@@ -297,7 +297,13 @@ function wire() {
   on('leaves', 'input', () => { at('leaf-count').value = whole.format(sliderLeaves()); });
   on('leaves', 'change', () => tryBegin(scene, { leaves: sliderLeaves(), camera: player.camera(), isPlaying: pace.isPlaying }));
   on('detail', 'change', () => { view.detail = Number(at('detail').value); });
-  on('choose', 'click', () => at('scenes').showModal());
+  let isFilled = false;
+  on('choose', 'click', () => {
+    // Pictures of presets are fetched by those alone who look at them.
+    if (!isFilled) fill(at('scenes'), engine.presets(), (name) => tryBegin({ preset: name }));
+    isFilled = true;
+    at('scenes').showModal();
+  });
   on('open', 'click', () => at('file').click());
   on('file', 'change', () => {
     for (const file of at('file').files) takeFile(file);
@@ -343,7 +349,6 @@ function wire() {
     keepLink();
   });
   accept(takeFile);
-  fill(at('scenes'), engine.presets(), (name) => tryBegin({ preset: name }));
 }
 
 /** A round of the page: steps, the picture, the numbers. */

@@ -24,12 +24,12 @@ export class View {
   /** Time at which the frame before was begun, and that of the one that the device still works on. */
   #before = null;
   #begun = null;
-  #tell;
+  #report;
 
-  /** `tell` has `lost(reason)`, `without(reason)`, `complain(error)` and `framed(ms)`. */
-  constructor(canvas, tell) {
+  /** `report` has `lost(reason)`, `without(reason)`, `complain(error)` and `framed(ms)`. */
+  constructor(canvas, report) {
     this.#canvas = canvas;
-    this.#tell = tell;
+    this.#report = report;
   }
 
   get screen() { return this.#screen; }
@@ -37,12 +37,12 @@ export class View {
 
   /** Opens a device; where there is none, says so and stays without a picture. */
   async open() {
-    if (!navigator.gpu) return this.#tell.without('This browser has no WebGPU, so there is no picture.');
+    if (!navigator.gpu) return this.#report.without('This browser has no WebGPU, so there is no picture.');
     this.#devices += 1;
     try {
       this.#screen = await Screen.open(this.#canvas);
     } catch (error) {
-      this.#tell.without(`There is no picture (${error.message}).`);
+      this.#report.without(`There is no picture (${error.message}).`);
     }
   }
 
@@ -56,7 +56,7 @@ export class View {
       this.#screen.show(player);
       [this.#isShown, this.isStale, this.#before, this.#begun] = [true, true, null, null];
     } catch (error) {
-      this.#tell.complain(error);
+      this.#report.complain(error);
     }
   }
 
@@ -96,13 +96,13 @@ export class View {
       this.#screen = null;
       this.#isShown = false;
       const isLast = this.#devices >= DEVICES;
-      return isLast ? this.#tell.without(`The graphics device was lost ${DEVICES} times (${lost}).`) : this.#tell.lost(lost);
+      return isLast ? this.#report.without(`The graphics device was lost ${DEVICES} times (${lost}).`) : this.#report.lost(lost);
     }
     // One frame at a time, or a slow device would fall behind ever more.
     if (this.#screen.is_busy()) return;
     if (this.#begun !== null) {
       this.frames += 1;
-      this.#tell.framed(now - this.#begun);
+      this.#report.framed(now - this.#begun);
       this.#begun = null;
       this.#complain();
     }
@@ -117,7 +117,7 @@ export class View {
   /** Passes on what the device has complained of. */
   #complain() {
     const complaint = this.#screen.take_complaint();
-    if (complaint !== undefined) this.#tell.complain(`The graphics device refused something: ${complaint}`);
+    if (complaint !== undefined) this.#report.complain(`The graphics device refused something: ${complaint}`);
   }
 
   /** Lets the canvas have as many pixels as the page shows. */

@@ -20,7 +20,7 @@ const QUALITY: u8 = 88;
 /// Paints a pack of leaves of a shape.
 ///
 /// # Errors
-/// What the leaf maker finds.
+/// Errors of the leaf maker.
 pub(crate) fn paint(shape: Shape) -> Result<Vec<u8>, WebError> {
     let mut layers = Vec::new();
     for (season, count) in SEASONS {

@@ -93,7 +93,7 @@ impl LeafPictures {
     /// Pictures and meshes for all species of a scene; a species whose pack is missing has a plain one.
     ///
     /// # Errors
-    /// What the painter of light bodies finds.
+    /// Errors of the painter of light bodies.
     pub(crate) fn atlas_of(&self, scene: &Scene) -> Result<Atlas, WebError> {
         let most = MAX_LAYERS / scene.species.len().max(1);
         let mut kinds: Vec<Vec<Layer>> = Vec::with_capacity(scene.species.len());

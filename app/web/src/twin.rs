@@ -43,6 +43,8 @@ pub(crate) struct Twin {
     simulator: WgpuSimulator,
     /// Step at which it took over the processor's state.
     since: u32,
+    /// State that was last read from the device; at first the one that both began with, so that what was never read shows as different.
+    other: World,
     reading: Option<Reading>,
     difference: Option<Difference>,
     /// Step of the processor when it was followed last.
@@ -58,7 +60,7 @@ impl Twin {
     /// [`WebError::Sim`] if the device cannot hold it.
     pub(crate) fn of(gpu: &Gpu, session: &Session) -> Result<Self, WebError> {
         let world = session.world();
-        let simulator = WgpuSimulator::new(gpu, world, &WgpuOptions::default())?;
+        let (simulator, other) = (WgpuSimulator::new(gpu, world, &WgpuOptions::default())?, world.clone());
         let since = world.clock.step();
         Ok(Self {
             simulator,
@@ -79,9 +81,8 @@ impl Twin {
         let step = world.clock.step();
         let is_still = std::mem::replace(&mut self.followed, step) == step;
         if let Some(reading) = self.reading.take() {
-            let mut other = reading.mine.clone();
-            if reading.request.poll(&mut other)? {
-                self.difference = Some(difference(&reading.mine, &other, self.since));
+            if reading.request.poll(&mut self.other)? {
+                self.difference = Some(difference(&reading.mine, &self.other, self.since));
             } else {
                 self.reading = Some(reading);
             }
