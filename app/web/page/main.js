@@ -190,6 +190,12 @@ function command() {
   return `windfall simulate ${quoted} --steps ${hashed.step}${leaves} --backend cpu`;
 }
 
+/** Shows it in lines that end before options, not within them. */
+function showCommand() {
+  const parts = command().split(/ (?=--)/).map((part) => Object.assign(document.createElement('span'), { textContent: part }));
+  at('command').replaceChildren(...parts.flatMap((part, number) => (number === 0 ? [part] : [' ', part])));
+}
+
 function showNumbers(now) {
   const step = player.step();
   const isStill = pace.target === null && !pace.isPlaying;
@@ -197,7 +203,7 @@ function showNumbers(now) {
     hashed = { step, at: now };
     at('hash').value = player.state_hash();
     at('hashed-step').value = whole.format(step);
-    at('command').textContent = command();
+    showCommand();
   }
   at('hash').classList.toggle('old', step !== hashed.step);
   at('clock').value = `${(step * player.dt_s()).toFixed(2)} s · step ${whole.format(step)}`;

@@ -65,6 +65,7 @@ impl Twin {
         Ok(Self {
             simulator,
             since,
+            other,
             reading: None,
             difference: None,
             followed: since,
