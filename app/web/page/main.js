@@ -48,13 +48,15 @@ let linkTimer = 0;
 /** Fragment that the page itself has put into its address. */
 let ownFragment = null;
 let firstPictureMs = null;
+/** Megabytes that had been fetched by then. */
+let fetchedMb = 0;
 
 const view = new View(at('picture'), {
   complain,
   without: doWithout,
   framed(ms) {
     meter.add(ms);
-    firstPictureMs ??= performance.now();
+    if (firstPictureMs === null) [firstPictureMs, fetchedMb] = [performance.now(), resourceMb()];
     at('curtain').classList.add('gone');
   },
   async lost(reason) {
@@ -218,7 +220,7 @@ function showNumbers(now) {
   at('frame-ms').textContent = ms(meter.median());
   at('step-ms').textContent = ms(pace.stepMs);
   at('device-ms').textContent = ms(view.deviceMs());
-  at('first-picture').textContent = firstPictureMs === null ? '–' : `after ${(firstPictureMs / 1000).toFixed(1)} s, ${fetchedMb()} MB`;
+  at('first-picture').textContent = firstPictureMs === null ? '–' : `after ${(firstPictureMs / 1000).toFixed(1)} s, ${fetchedMb.toFixed(1)} MB`;
   meter.draw();
 }
 
@@ -234,9 +236,9 @@ function showDifference(found) {
 }
 
 /** Megabytes that the page has fetched. */
-const fetchedMb = () => {
+const resourceMb = () => {
   const sizes = performance.getEntriesByType('resource').map((entry) => entry.encodedBodySize);
-  return (sizes.reduce((sum, size) => sum + size, 0) / 1e6).toFixed(1);
+  return sizes.reduce((sum, size) => sum + size, 0) / 1e6;
 };
 
 /** The fragment that begins what is seen now; null for a scene too long for links. */
