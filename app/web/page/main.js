@@ -140,15 +140,25 @@ async function followLink(fragment) {
   await begin(wanted, asked);
 }
 
-/** The leaf pictures that a scene needs; those that cannot be fetched are left out. */
+/** Packs of leaf pictures that have been asked for, by name: each is fetched once. */
+const packs = new Map();
+
+/** Bytes of a pack. */
+async function fetchPack(name) {
+  const answer = await fetch(`leaves/${name}.leaves`);
+  if (!answer.ok) throw new Error(`leaves/${name}.leaves: ${answer.status} ${answer.statusText}`);
+  return new Uint8Array(await answer.arrayBuffer());
+}
+
+/** The leaf pictures that a scene needs, pairs of name and bytes; those that cannot be fetched are left out, and asked for again another time. */
 async function fetchPacks(player) {
   if (!navigator.gpu) return [];
   const fetched = player.leaf_packs().map(async (name) => {
     try {
-      const answer = await fetch(`leaves/${name}.leaves`);
-      if (!answer.ok) throw new Error(`leaves/${name}.leaves: ${answer.status} ${answer.statusText}`);
-      return [name, new Uint8Array(await answer.arrayBuffer())];
+      if (!packs.has(name)) packs.set(name, fetchPack(name));
+      return [name, await packs.get(name)];
     } catch (error) {
+      packs.delete(name);
       complain(error);
       return null;
     }
