@@ -309,6 +309,9 @@ mod tests {
             row([0.08, 0.0, 0.0, 1.0]),
             "other leaves are drawn about their middle"
         );
+        let maple = Species::preset("maple").expect("a preset");
+        let ahead = SpeciesRow::of(&maple).offset_z;
+        assert!((0.09..0.12).contains(&ahead), "its petiole leaves the blade ahead: {ahead}");
         let plate = Species { shape: LeafShape::Plate, ..Species::default() };
         assert_eq!(SpeciesRow::of(&plate).folds.to_bits(), 0, "a plate is flat");
     }
