@@ -55,14 +55,7 @@ impl Layer {
     /// # Panics
     /// If `size_px` is no power of two.
     pub fn of_leaf(leaf: &FolderLeaf, size_px: u32) -> Self {
-        let (picture, surface) = Self::pictures_of(leaf, size_px);
-        let petiole = leaf.facts.body.and_then(|body| body.petiole);
-        let droop_deg = petiole.map_or(PETIOLE_DROOP_DEG, |petiole| petiole.droop_deg);
-        Self::assembled(picture, surface, leaf.form.as_ref(), droop_deg, leaf.facts.season)
-    }
-
-    /// Colour with coverage, and surface, of a leaf in another size.
-    pub(crate) fn pictures_of(leaf: &FolderLeaf, size_px: u32) -> (RgbaImage, RgbaImage) {
+        let picture = fitted(&leaf.maps.albedo, size_px);
         let (normal, through) = (&leaf.maps.normal, &leaf.maps.translucency);
         let normal: RgbImage = imageops::resize(normal, size_px, size_px, FilterType::Triangle);
         let through: GrayImage = imageops::resize(through, size_px, size_px, FilterType::Triangle);
@@ -70,21 +63,12 @@ impl Layer {
             let [right, up, _] = normal.get_pixel(x, y).0;
             Rgba([right, up, through.get_pixel(x, y)[0], 255])
         });
-        (fitted(&leaf.maps.albedo, size_px), surface)
-    }
-
-    /// A leaf from its pictures and the meshes of its blade, if there are any; its petiole hangs by `droop_deg`.
-    pub(crate) fn assembled(
-        picture: RgbaImage,
-        surface: RgbaImage,
-        form: Option<&LeafForm>,
-        droop_deg: f32,
-        season: f32,
-    ) -> Self {
-        let form = form.map_or_else(
+        let form = leaf.form.as_ref().map_or_else(
             || LeafForm::of_picture(&picture),
             |form| {
                 let mut form = form.clone();
+                let petiole = leaf.facts.body.and_then(|body| body.petiole);
+                let droop_deg = petiole.map_or(PETIOLE_DROOP_DEG, |petiole| petiole.droop_deg);
                 form.add_stalk(&picture, droop_deg, STALK_PIECES);
                 for (level, by) in form.levels.iter_mut().zip(WIDER) {
                     level.widen(by);
@@ -92,7 +76,7 @@ impl Layer {
                 form
             },
         );
-        Self::new(picture, surface, form, Some(season))
+        Self::new(picture, surface, form, Some(leaf.facts.season))
     }
 
     fn new(image: RgbaImage, surface: RgbaImage, form: LeafForm, season: Option<f32>) -> Self {

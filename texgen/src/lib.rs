@@ -34,6 +34,7 @@ pub mod form;
 pub mod growth;
 mod lab;
 mod layer;
+mod leaf_pack;
 mod light_body;
 mod making;
 mod maps;
@@ -45,7 +46,6 @@ mod paint;
 mod plane;
 mod planform;
 mod raster;
-mod ready;
 mod regular_file;
 mod rng;
 pub mod season;
@@ -70,11 +70,11 @@ pub use folder::{
     LeafForm, MANIFEST_NAME, Manifest, PetioleFacts,
 };
 pub use layer::Layer;
+pub use leaf_pack::{LeafPack, PACK_SIZE_PX, PackError};
 pub use light_body::LightBody;
 pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};
 pub use maps::LeafMaps;
 pub use outline_model::OutlineModel;
-pub use ready::{READY_SIZE_PX, ReadyFiles, ReadyLeaves};
 pub use shape::Shape;
 pub use specimen::Specimen;
 pub use synthesis::{Painted, Painter, Stage};

@@ -13,7 +13,7 @@ use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
 use windfall_render::MAX_LAYERS;
 use windfall_texgen::{
-    Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, READY_SIZE_PX, ReadyLeaves, Shape,
+    Assortment, Atlas, Layer, LeafFacts, LeafFolder, LeafPack, LightBody, PACK_SIZE_PX, Shape,
 };
 
 /// Pictures of each species.
@@ -69,13 +69,13 @@ fn atlas_of_kept(
             is_complete &= folder.is_some();
         }
     }
-    let size_px = if is_complete { size_px } else { READY_SIZE_PX };
-    let ready = |species: &Species, shape| {
-        let mut layers = ReadyLeaves::of(shape).layers(species.season);
+    let size_px = if is_complete { size_px } else { PACK_SIZE_PX };
+    let bundled = |species: &Species, shape| {
+        let mut layers = LeafPack::bundled(shape).in_season(species.season);
         layers.truncate(most);
         Ok(layers)
     };
-    Ok((assembled(scene, size_px, &folders, &ready)?, is_complete))
+    Ok((assembled(scene, size_px, &folders, &bundled)?, is_complete))
 }
 
 /// Most pictures of each species of a scene.

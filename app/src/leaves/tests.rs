@@ -75,7 +75,7 @@ fn small_leaves_stand_for_those_that_would_have_to_be_made() {
     let scene = Scene { species: kinds.to_vec(), ..Scene::default() };
     let (small, is_complete) = atlas_of_kept(&scene, &|_| None).expect("nothing to read");
     assert!(!is_complete, "birch leaves have to be made");
-    assert_eq!(small.size_px, READY_SIZE_PX, "small ones until then");
+    assert_eq!(small.size_px, PACK_SIZE_PX, "small ones until then");
     assert_eq!(small.layers.len(), 2 * small.variants as usize, "both species");
     let made = few().make(|| {}).expect("allowed numbers");
     let kept = |_: &Assortment| Some(made.clone());

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// Makes what the page fetches besides its module: `node assets.mjs ENGINE GALLERY OUT`. ENGINE is the module with the feature `make`; pictures of
-// presets are made of those in GALLERY.
+// Makes small pictures of the presets for the page: `node assets.mjs ENGINE GALLERY OUT`. ENGINE is the module with the feature `make`; they are
+// made of those in GALLERY.
 
-import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
@@ -13,20 +13,8 @@ const windfall = await import(pathToFileURL(resolve(engine, 'windfall_web.js')))
 windfall.initSync({ module: readFileSync(join(engine, 'windfall_web_bg.wasm')) });
 
 mkdirSync(out, { recursive: true });
-for (const name of windfall.leaf_packs()) {
-  const file = join(out, `${name}.leaves`);
-  if (existsSync(file)) continue;
-  const since = performance.now();
-  const pack = windfall.paint_leaf_pack(name);
-  // Renamed when whole, so that a run that is killed leaves no part of one.
-  writeFileSync(`${file}.part`, pack);
-  renameSync(`${file}.part`, file);
-  console.error(`painted ${name}: ${pack.length} bytes, ${((performance.now() - since) / 1000).toFixed(1)} s`);
-}
-
 // The page shows a preset without a picture by its name alone.
 const names = windfall.presets().filter((_, index) => index % 2 === 0);
 const pictured = names.filter((name) => existsSync(join(gallery, `${name}.png`)));
 for (const name of pictured) writeFileSync(join(out, `${name}.jpg`), windfall.thumbnail(readFileSync(join(gallery, `${name}.png`))));
 writeFileSync(join(out, 'list.json'), JSON.stringify(pictured));
-writeFileSync(join(out, 'done'), '');

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Makes what the page fetches besides its module, for `scripts/web`: packs of leaf pictures and small pictures of the presets.
+//! Makes the small pictures of presets that the page shows, for `scripts/web`.
 
 use std::io::Cursor;
 
@@ -9,34 +9,12 @@ use image::{ImageFormat, ImageReader};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::leaf_paint;
-use crate::leaf_pictures::PACKS;
-
 /// Width and height of a small picture in pixels.
 const SIZE: (u32, u32) = (320, 180);
 /// Quality of its JPEG, 1 to 100.
 const QUALITY: u8 = 82;
 
-/// Names of the packs of leaf pictures.
-#[wasm_bindgen]
-pub fn leaf_packs() -> Vec<String> {
-    PACKS.iter().map(|&(name, _)| name.to_owned()).collect()
-}
-
-/// Paints a pack of leaf pictures, which takes seconds.
-///
-/// # Errors
-/// A name that no pack has.
-#[wasm_bindgen]
-pub fn paint_leaf_pack(name: &str) -> Result<Vec<u8>, JsError> {
-    let (_, shape) = PACKS
-        .into_iter()
-        .find(|(pack, _)| *pack == name)
-        .ok_or_else(|| JsError::new(&format!("pack is '{name}'; allowed: {}", leaf_packs().join(", "))))?;
-    Ok(leaf_paint::paint(shape)?)
-}
-
-/// A PNG of 16 by 9 as a small JPEG, for `scripts/web`.
+/// A PNG of 16 by 9 as a small JPEG.
 ///
 /// # Errors
 /// Bytes that are no PNG.

@@ -6,7 +6,7 @@ use thiserror::Error;
 use windfall_core::{SceneError, SimError};
 use windfall_render::RenderError;
 use windfall_render::light::MapError;
-use windfall_texgen::TexgenError;
+use windfall_texgen::{PackError, TexgenError};
 
 /// Reasons why the page cannot do what it was asked for. It goes on as it was.
 #[derive(Debug, Error)]
@@ -58,13 +58,13 @@ pub enum WebError {
         /// Allowed values.
         allowed: &'static str,
     },
-    /// A picture of a leaf that cannot be read.
-    #[error("{file}: {field} is broken; allowed: what scripts/web writes")]
+    /// A pack of leaves that cannot be read.
+    #[error("{file}: {error}")]
     LeafPack {
         /// Name of the pack.
         file: String,
         /// The part that is broken.
-        field: &'static str,
+        error: PackError,
     },
     /// No device to draw with.
     #[error("WebGPU: {reason}; allowed: a browser and a graphics driver that have it")]

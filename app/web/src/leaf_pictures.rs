@@ -8,10 +8,9 @@ use image::{Rgba, RgbaImage};
 use windfall_core::Scene;
 use windfall_core::scene::LeafShape;
 use windfall_render::MAX_LAYERS;
-use windfall_texgen::{Atlas, Layer, LightBody, Shape};
+use windfall_texgen::{Atlas, Layer, LeafPack, LightBody, PACK_SIZE_PX, Shape};
 
 use crate::error::WebError;
-use crate::leaf_pack::{self, PICTURE_SIZE};
 
 /// Pictures of a body that is no leaf.
 const PAINTED: u64 = 8;
@@ -21,7 +20,7 @@ const PLAIN: Rgba<u8> = Rgba([150, 96, 40, 255]);
 /// Packs by the name of their shape.
 #[derive(Debug, Default)]
 pub(crate) struct LeafPictures {
-    packs: BTreeMap<String, Vec<Layer>>,
+    packs: BTreeMap<String, LeafPack>,
 }
 
 /// Painter of a shape's pictures.
@@ -86,7 +85,8 @@ impl LeafPictures {
     /// # Errors
     /// [`WebError::LeafPack`] for bytes that are no pack.
     pub(crate) fn give(&mut self, name: &str, bytes: &[u8]) -> Result<(), WebError> {
-        self.packs.insert(name.to_owned(), leaf_pack::read(name, bytes)?);
+        let broken = |error| WebError::LeafPack { file: name.to_owned(), error };
+        self.packs.insert(name.to_owned(), LeafPack::from_bytes(bytes).map_err(broken)?);
         Ok(())
     }
 
@@ -100,13 +100,12 @@ impl LeafPictures {
         for species in &scene.species {
             let layers = match painter(species.shape) {
                 Painter::Pack(shape) => {
-                    let pack = self.packs.get(pack_name(shape)).map_or(&[][..], Vec::as_slice);
-                    let chosen = in_season(pack, species.season);
-                    if chosen.is_empty() { vec![plain()] } else { chosen }
+                    let pack = self.packs.get(pack_name(shape));
+                    pack.map_or_else(|| vec![plain()], |pack| pack.in_season(species.season))
                 }
                 Painter::Light(body) => {
                     let pictures =
-                        (0..PAINTED).map(|seed| body.paint(PICTURE_SIZE, seed).map(Layer::from_picture));
+                        (0..PAINTED).map(|seed| body.paint(PACK_SIZE_PX, seed).map(Layer::from_picture));
                     pictures.collect::<Result<_, _>>()?
                 }
             };
@@ -118,26 +117,14 @@ impl LeafPictures {
             .flat_map(|layers| (0..variants).map(|variant| layers[variant % layers.len()].clone()))
             .collect();
         let variants = u32::try_from(variants).expect("at most as many as there are layers");
-        Ok(Atlas { size_px: PICTURE_SIZE, variants, layers })
+        Ok(Atlas { size_px: PACK_SIZE_PX, variants, layers })
     }
-}
-
-/// Leaves within a stretch of the season; if there are none, those that are nearest to its middle.
-fn in_season(leaves: &[Layer], (earliest, latest): (f32, f32)) -> Vec<Layer> {
-    /// Seasons differ in what is read and written.
-    const SLACK: f32 = 1.0e-3;
-    let away = |layer: &Layer| {
-        let season = layer.season.unwrap_or(0.0);
-        (earliest - season).max(season - latest).max(0.0)
-    };
-    let nearest = leaves.iter().map(away).fold(f32::INFINITY, f32::min);
-    leaves.iter().filter(|layer| away(layer) <= nearest + SLACK).cloned().collect()
 }
 
 /// A brown ellipse.
 fn plain() -> Layer {
-    let middle = 0.5 * PICTURE_SIZE as f32;
-    Layer::from_picture(RgbaImage::from_fn(PICTURE_SIZE, PICTURE_SIZE, |x, y| {
+    let middle = 0.5 * PACK_SIZE_PX as f32;
+    Layer::from_picture(RgbaImage::from_fn(PACK_SIZE_PX, PACK_SIZE_PX, |x, y| {
         let (right, down) =
             ((x as f32 + 0.5 - middle) / (0.6 * middle), (y as f32 + 0.5 - middle) / (0.95 * middle));
         let Rgba([r, g, b, _]) = PLAIN;

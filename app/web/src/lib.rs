@@ -6,24 +6,21 @@
 
 #[cfg(feature = "make")]
 mod assets;
+mod camera_numbers;
 mod error;
 mod history;
-mod leaf_pack;
-#[cfg(feature = "make")]
-mod leaf_paint;
 mod leaf_pictures;
+mod lockstep;
 mod picture;
 mod player;
 mod screen;
 mod session;
-mod twin;
-mod view;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 use windfall_core::scene::{PRESETS, Scene};
 
 #[cfg(feature = "make")]
-pub use assets::{leaf_packs, paint_leaf_pack, thumbnail};
+pub use assets::thumbnail;
 pub use error::WebError;
 pub use player::Player;
 pub use screen::Screen;

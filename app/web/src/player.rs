@@ -7,10 +7,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use windfall_core::LeafStats;
 use windfall_render::camera::Camera;
 
+use crate::camera_numbers::{camera_of, numbers_of};
 use crate::error::WebError;
 use crate::leaf_pictures;
 use crate::session::Session;
-use crate::view::{camera_of, numbers_of};
 
 /// A scene, its simulator on the processor, and the camera that looks at it.
 #[wasm_bindgen]

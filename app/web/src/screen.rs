@@ -10,9 +10,9 @@ use windfall_render::light::Daylight;
 
 use crate::error::WebError;
 use crate::leaf_pictures::LeafPictures;
+use crate::lockstep::Lockstep;
 use crate::picture::Picture;
 use crate::player::Player;
-use crate::twin::Twin;
 
 /// A canvas with a WebGPU device, and the leaf pictures that the page has fetched.
 #[wasm_bindgen]
@@ -21,7 +21,7 @@ pub struct Screen {
     picture: Picture,
     leaves: LeafPictures,
     /// The simulator on WebGPU, while both run.
-    twin: Option<Twin>,
+    lockstep: Option<Lockstep>,
 }
 
 #[wasm_bindgen]
@@ -32,7 +32,7 @@ impl Screen {
     /// No WebGPU, or no adapter for it.
     pub async fn open(canvas: HtmlCanvasElement) -> Result<Self, JsError> {
         let picture = Picture::open(canvas).await?;
-        Ok(Self { picture, leaves: LeafPictures::default(), twin: None })
+        Ok(Self { picture, leaves: LeafPictures::default(), lockstep: None })
     }
 
     /// Name of the adapter.
@@ -53,7 +53,7 @@ impl Screen {
     /// # Errors
     /// A scene that the device cannot draw.
     pub fn show(&mut self, player: &Player) -> Result<(), JsError> {
-        self.twin = None;
+        self.lockstep = None;
         let atlas = self.leaves.atlas_of(player.session.scene())?;
         Ok(self.picture.show(&player.session, &atlas)?)
     }
@@ -91,18 +91,19 @@ impl Screen {
     /// # Errors
     /// A device that cannot hold the leaves twice.
     pub fn compare(&mut self, player: &Player, compares: bool) -> Result<(), JsError> {
-        self.twin = if compares { Some(Twin::of(self.picture.gpu(), &player.session)?) } else { None };
+        self.lockstep =
+            if compares { Some(Lockstep::of(self.picture.gpu(), &player.session)?) } else { None };
         Ok(())
     }
 
     /// Returns true while the simulator on WebGPU has steps to take that the player has taken.
     pub fn is_behind(&self, player: &Player) -> bool {
-        self.twin.as_ref().is_some_and(|twin| twin.is_behind(&player.session))
+        self.lockstep.as_ref().is_some_and(|lockstep| lockstep.is_behind(&player.session))
     }
 
     /// Returns true while both simulators run.
     pub fn compares(&self) -> bool {
-        self.twin.is_some()
+        self.lockstep.is_some()
     }
 
     /// Lets the simulator on WebGPU follow the player. Returns what is known of the difference: its step, the step since which both have gone
@@ -111,9 +112,9 @@ impl Screen {
     /// # Errors
     /// A lost device.
     pub fn difference(&mut self, player: &Player) -> Result<Option<Vec<f64>>, JsError> {
-        let Some(twin) = &mut self.twin else { return Ok(None) };
-        twin.follow(self.picture.gpu(), &player.session)?;
-        let numbers = twin.difference().map(|found| {
+        let Some(lockstep) = &mut self.lockstep else { return Ok(None) };
+        lockstep.follow(self.picture.gpu(), &player.session)?;
+        let numbers = lockstep.difference().map(|found| {
             vec![found.step.into(), found.since.into(), found.farthest_m.into(), found.other_states.into()]
         });
         Ok(numbers)

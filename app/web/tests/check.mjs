@@ -215,7 +215,7 @@ try {
       return refused;
     })()`);
     assert.equal(refused.length, 16, 'all lengths are tried');
-    for (const line of refused) assert.match(line, /^birch: .* is broken; allowed: what scripts\/web writes$/, 'a line that names the part');
+    for (const line of refused) assert.match(line, /^birch: .* is broken; allowed: what scripts\/leaf-packs writes$/, 'a line that names the part');
   });
 
   await test('a dropped sky is drawn', async () => {

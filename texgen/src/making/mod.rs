@@ -24,7 +24,7 @@ use manner::{Manner, stem_of};
 use turning::Turning;
 
 /// Changes with every change of what [`LeafMaker`] makes of equal options: whoever keeps leaves keeps them under this
-/// number and makes them again under another. Raise it with any change to outlines, veins, colours or maps, and run `scripts/ready-leaves` then.
+/// number and makes them again under another. Raise it with any change to outlines, veins, colours or maps, and run `scripts/leaf-packs` then.
 pub const RECIPE: u32 = 4;
 
 /// Season of leaves that nobody asked a season for.

@@ -12,7 +12,7 @@ use windfall_wgpu::{Gpu, StateRequest, WgpuOptions, WgpuSimulator};
 use crate::error::WebError;
 use crate::session::Session;
 
-/// Most steps that the twin takes at once.
+/// Most steps that the device takes at once.
 const MOST_STEPS: u32 = 16;
 /// Steps from one reading of the state to the next while time goes on.
 const READ_EVERY: u32 = 24;
@@ -39,7 +39,7 @@ struct Reading {
 
 /// A simulator on WebGPU.
 #[derive(Debug)]
-pub(crate) struct Twin {
+pub(crate) struct Lockstep {
     simulator: WgpuSimulator,
     /// Step at which it took over the processor's state.
     since: u32,
@@ -53,8 +53,8 @@ pub(crate) struct Twin {
     pending: Arc<AtomicU32>,
 }
 
-impl Twin {
-    /// A twin of the session's world as it is now.
+impl Lockstep {
+    /// A simulator of the session's world as it is now.
     ///
     /// # Errors
     /// [`WebError::Sim`] if the device cannot hold it.
