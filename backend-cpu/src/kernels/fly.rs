@@ -59,31 +59,53 @@ pub(super) fn slots_of(few: FewOfBlocks) -> impl Iterator<Item = usize> {
     blocks.flat_map(|(block, bits)| places_of(bits.into()).map(move |place| block * BLOCK + place))
 }
 
-/// Steps the bodies of blocks side by side; those that land, and the last few slots, one by one.
+/// Bodies that are stepped together: those of a block where they lie, or few from here and there.
+enum Together {
+    Block(usize),
+    Few([usize; BLOCK], usize),
+}
+
+/// Steps the bodies of blocks side by side; those that land, and the last few slots, one by one. The flight is called in one place, since
+/// every call of it is another copy of its code: the longest there is, and minutes of compilation.
 #[inline(always)]
 fn fly_lanes<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
     let mut few: FewOfBlocks = [0; CHUNK / BLOCK];
-    for (block, stirring) in events.stirring_blocks() {
-        let first = block * BLOCK;
-        if leaves.len() < first + BLOCK {
-            fly_each(cx, leaves, first, stirring);
-            continue;
-        }
-        let awake = bodies_in(leaves, first);
-        if awake.count_ones() >= DENSE {
-            let landing = block_of(leaves, first).fly::<P>(simd, cx);
-            fly_each(cx, leaves, first, landing);
-        } else {
-            few[block] = awake;
-        }
-    }
-    let mut slots = slots_of(few);
+    let mut blocks = events.stirring_blocks();
+    let mut slots = None;
+    let mut gathered = Gathered::default();
     loop {
-        let (slots, count) = next_few(&mut slots);
-        if count == 0 {
-            break;
+        let together = if let Some((block, stirring)) = blocks.next() {
+            let first = block * BLOCK;
+            if leaves.len() < first + BLOCK {
+                fly_each(cx, leaves, first, stirring);
+                continue;
+            }
+            let awake = bodies_in(leaves, first);
+            if awake.count_ones() < DENSE {
+                few[block] = awake;
+                continue;
+            }
+            Together::Block(first)
+        } else {
+            let (next, count) = next_few(slots.get_or_insert_with(|| slots_of(few)));
+            if count == 0 {
+                break;
+            }
+            gathered.load(leaves, &next[..count]);
+            Together::Few(next, count)
+        };
+        let landing = match together {
+            Together::Block(first) => block_of(leaves, first),
+            Together::Few(..) => gathered.block(),
         }
-        fly_gathered::<P>(simd, cx, leaves, &slots[..count]);
+        .fly::<P>(simd, cx);
+        match together {
+            Together::Block(first) => fly_each(cx, leaves, first, landing),
+            Together::Few(slots, count) => {
+                gathered.store(leaves, &slots[..count]);
+                places_of(landing.into()).for_each(|at| fly_each(cx, leaves, slots[at], 1));
+            }
+        }
     }
 }
 
@@ -94,37 +116,53 @@ fn bodies_in(leaves: &LeavesMut<'_>, first: usize) -> u32 {
     (0..).zip(places).fold(0, |bits, (place, of)| bits | (u32::from(flies(of.bits)) << place))
 }
 
-/// Steps bodies from here and there side by side, at most as many as a block has.
-#[inline(always)]
-fn fly_gathered<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, slots: &[usize]) {
-    let mut place = [Place::default(); BLOCK];
-    let mut drift = [Drift::default(); BLOCK];
-    let mut attitude = [Attitude::default(); BLOCK];
-    let mut schedule = [Schedule::default(); BLOCK];
-    let mut identity = [Identity::default(); BLOCK];
-    for (at, &slot) in slots.iter().enumerate() {
-        place[at] = leaves.place[slot];
-        drift[at] = leaves.drift[slot];
-        attitude[at] = leaves.attitude[slot];
-        schedule[at] = leaves.schedule[slot];
-        identity[at] = leaves.identity[slot];
+/// Bodies from here and there, at most as many as a block has. Those behind the last of them do not fly.
+#[derive(Default)]
+struct Gathered {
+    place: [Place; BLOCK],
+    drift: [Drift; BLOCK],
+    attitude: [Attitude; BLOCK],
+    schedule: [Schedule; BLOCK],
+    identity: [Identity; BLOCK],
+}
+
+impl Gathered {
+    /// Takes the leaves of these slots.
+    #[inline(always)]
+    fn load(&mut self, leaves: &LeavesMut<'_>, slots: &[usize]) {
+        self.place = [Place::default(); BLOCK];
+        for (at, &slot) in slots.iter().enumerate() {
+            self.place[at] = leaves.place[slot];
+            self.drift[at] = leaves.drift[slot];
+            self.attitude[at] = leaves.attitude[slot];
+            self.schedule[at] = leaves.schedule[slot];
+            self.identity[at] = leaves.identity[slot];
+        }
     }
-    let mut block = FlyingBlock {
-        place: &mut place,
-        drift: &mut drift,
-        attitude: &mut attitude,
-        schedule: &mut schedule,
-        identity: &mut identity,
-    };
-    let landing = block.fly::<P>(simd, cx);
-    for (at, &slot) in slots.iter().enumerate() {
-        leaves.place[slot] = place[at];
-        leaves.drift[slot] = drift[at];
-        leaves.attitude[slot] = attitude[at];
-        leaves.schedule[slot] = schedule[at];
-        leaves.identity[slot] = identity[at];
+
+    /// Puts the leaves back.
+    #[inline(always)]
+    fn store(&self, leaves: &mut LeavesMut<'_>, slots: &[usize]) {
+        for (at, &slot) in slots.iter().enumerate() {
+            leaves.place[slot] = self.place[at];
+            leaves.drift[slot] = self.drift[at];
+            leaves.attitude[slot] = self.attitude[at];
+            leaves.schedule[slot] = self.schedule[at];
+            leaves.identity[slot] = self.identity[at];
+        }
     }
-    places_of(landing.into()).for_each(|at| fly_each(cx, leaves, slots[at], 1));
+
+    /// The leaves as a block.
+    #[inline(always)]
+    fn block(&mut self) -> FlyingBlock<'_> {
+        FlyingBlock {
+            place: &mut self.place,
+            drift: &mut self.drift,
+            attitude: &mut self.attitude,
+            schedule: &mut self.schedule,
+            identity: &mut self.identity,
+        }
+    }
 }
 
 /// The block of slots from one on.

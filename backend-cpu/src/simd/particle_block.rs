@@ -181,13 +181,16 @@ impl ParticleBlock<'_> {
             None => Vec3::<f32>::ZERO.spread(birth),
         };
         let start = ParticleFlight { position, velocity };
-        let end = match frames.map(|frames| frames.part::<P>(simd, part)) {
-            None => particle_free_step(cx, population, coasts, start, air, mutual),
-            Some(frame) => {
-                let inside = in_frame(frame, start);
-                carried_flight(frame, particle_free_step(cx, population, coasts, inside, air, mutual))
-            }
+        let frame = frames.map(|frames| frames.part::<P>(simd, part));
+        let inside = match frame {
+            Some(frame) => in_frame(frame, start),
+            None => start,
         };
+        // Called in one place: every call is another copy of the longest code of all.
+        let mut end = particle_free_step(cx, population, coasts, inside, air, mutual);
+        if let Some(frame) = frame {
+            end = carried_flight(frame, end);
+        }
         // What does not fly is asked for high above all things, so that it makes none of the others wait.
         let above = Vec3::new(0.0, HIGH_ABOVE_M, 0.0).spread(birth);
         let [from, to] = [position, end.position].map(

@@ -42,10 +42,26 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
     let half = 0.5 * scene.dt_s;
     let kind = scene.populations[number].air;
     let flags = scene.populations[number].flags;
+    let is_massless = kind == AIR_MASSLESS;
     var end = start;
-    if (kind == AIR_MASSLESS) {
-        end.velocity = wind_at(position + wind_at(position) * half);
-        end.position = position + end.velocity * dt;
+    var moment = MOMENT_NOW;
+    var meeting = position;
+    if (!is_massless && (flags & POPULATION_COASTS) != 0u) {
+        moment = MOMENT_MIDDLE;
+        meeting = position + velocity * scene.wind.half_interval_s;
+    }
+    var samples = u32(kind != AIR_VACUUM);
+    if (is_massless) {
+        samples = 2u;
+    }
+    var wind = vec3<f32>(0.0, 0.0, 0.0);
+    for (var sample = 0u; sample < samples; sample++) {
+        wind = wind_at_moment(moment, meeting);
+        meeting = position + wind * half;
+    }
+    if (is_massless) {
+        end.velocity = wind;
+        end.position = position + wind * dt;
     } else {
         var pull = vec3<f32>(0.0, -scene.populations[number].gravity_m_s2, 0.0);
         if ((flags & POPULATION_PULLED) != 0u) {
@@ -53,16 +69,6 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3
         }
         if ((flags & POPULATION_MUTUAL) != 0u) {
             pull = pull + mutual;
-        }
-        var wind = vec3<f32>(0.0, 0.0, 0.0);
-        if (kind != AIR_VACUUM) {
-            var moment = MOMENT_NOW;
-            var meeting = position;
-            if ((flags & POPULATION_COASTS) != 0u) {
-                moment = MOMENT_MIDDLE;
-                meeting = position + velocity * scene.wind.half_interval_s;
-            }
-            wind = wind_at_moment(moment, meeting);
         }
         let is_linear = kind == AIR_LINEAR || kind == AIR_STOKES;
         if (is_linear && (flags & POPULATION_TURNED) == 0u) {

@@ -13,7 +13,7 @@ use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::{Vec3, vec3_select};
 use crate::blocks::{MOMENT_MIDDLE, MOMENT_NOW, NEVER, PopulationBlock};
 use crate::context::Context;
-use crate::device::wind::sample::{wind_at, wind_at_moment};
+use crate::device::wind::sample::wind_at_moment;
 
 crate::shared_constants! {
     /// Binary logarithm of the slots that sample the air in the same step. Only then is a particle's drag read: long runs of it are read as fast
@@ -73,27 +73,31 @@ pub fn particle_fly<R: Real>(
     let ParticleFlight { position, velocity } = start;
     let dt = position.x.all(cx.scene.dt_s);
     let half = position.x.all(0.5 * cx.scene.dt_s);
+    let none = position.x.all(0.0);
+    let is_massless = population.air == AIR_MASSLESS;
     let mut end = start;
-    if population.air == AIR_MASSLESS {
-        end.velocity = wind_at(cx, position + wind_at(cx, position) * half);
-        end.position = position + end.velocity * dt;
+    let (mut moment, mut meeting) = (MOMENT_NOW, position);
+    if !is_massless && (population.flags & POPULATION_COASTS) != 0 {
+        moment = MOMENT_MIDDLE;
+        meeting = position + velocity * position.x.all(cx.scene.wind.half_interval_s);
+    }
+    // What has no mass goes with the wind that it meets halfway. A loop, so that there is one copy of the long code of the wind.
+    let samples = if is_massless { 2 } else { u32::from(population.air != AIR_VACUUM) };
+    let mut wind = Vec3::<f32>::ZERO.spread(none);
+    for _ in 0..samples {
+        wind = wind_at_moment(cx, moment, meeting);
+        meeting = position + wind * half;
+    }
+    if is_massless {
+        end.velocity = wind;
+        end.position = position + wind * dt;
     } else {
-        let none = position.x.all(0.0);
         let mut pull = Vec3::new(none, position.x.all(-population.gravity_m_s2), none);
         if (population.flags & POPULATION_PULLED) != 0 {
             pull = pull + force_pull(cx, population, position + velocity * half);
         }
         if (population.flags & POPULATION_MUTUAL) != 0 {
             pull = pull + mutual;
-        }
-        let mut wind = Vec3::<f32>::ZERO.spread(none);
-        if population.air != AIR_VACUUM {
-            let (mut moment, mut meeting) = (MOMENT_NOW, position);
-            if (population.flags & POPULATION_COASTS) != 0 {
-                moment = MOMENT_MIDDLE;
-                meeting = position + velocity * position.x.all(cx.scene.wind.half_interval_s);
-            }
-            wind = wind_at_moment(cx, moment, meeting);
         }
         let is_linear = population.air == AIR_LINEAR || population.air == AIR_STOKES;
         if is_linear && (population.flags & POPULATION_TURNED) == 0 {
@@ -144,14 +148,15 @@ pub fn particle_free_step<R: Real>(
     air: [R; 2],
     mutual: Vec3<R>,
 ) -> ParticleFlight<R> {
-    if !coasts.any() {
-        return particle_fly(cx, population, start, air, mutual);
-    }
+    let any_coasts = coasts.any();
     let ahead = start.position + start.velocity * start.position.x.all(cx.scene.dt_s);
-    if !(!coasts).any() {
+    if any_coasts && !(!coasts).any() {
         return ParticleFlight { position: ahead, velocity: start.velocity };
     }
     let end = particle_fly(cx, population, start, air, mutual);
+    if !any_coasts {
+        return end;
+    }
     ParticleFlight {
         position: vec3_select(coasts, ahead, end.position),
         velocity: vec3_select(coasts, start.velocity, end.velocity),
