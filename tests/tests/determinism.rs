@@ -291,3 +291,19 @@ fn living_litter_still_gives_the_golden_bits() {
     let hash = world.state_hash();
     assert_eq!(hash, LITTER_GOLDEN, "the state hash is 0x{hash:016x}, see GOLDEN for what that means");
 }
+
+/// The table is what every way to use the engine is compared with: the command, C, Python, WebAssembly in Node and in a browser.
+#[test]
+fn presets_have_the_hashes_that_every_way_to_use_them_gives() {
+    let table = include_str!("../state_hashes.csv");
+    let found = table.lines().skip(1).map(|line| {
+        let mut words = line.split(',');
+        let mut word = || words.next().expect("three columns");
+        let (preset, steps) = (word(), word().parse().expect("a number of steps"));
+        let world = build(&Scene::preset(preset).expect("a preset"));
+        let mut simulator = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+        simulator.step(steps).expect("it steps");
+        format!("{preset},{steps},{:016x}\n", simulator.world().state_hash())
+    });
+    assert_eq!(format!("scene,steps,state_hash\n{}", found.collect::<String>()), table, "state_hashes.csv");
+}

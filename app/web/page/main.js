@@ -15,7 +15,7 @@ import { View } from './view.js';
 
 /** Scene of a page that is asked for none. */
 const FIRST_SCENE = 'autumn-park';
-/** Milliseconds between two fingerprints while time goes on: each reads the whole state. */
+/** Milliseconds between two state hashes while time goes on: each reads the whole state. */
 const HASH_MS = 500;
 /** Milliseconds between two rounds of the other numbers. */
 const NUMBERS_MS = 250;
@@ -80,7 +80,7 @@ function doWithout(reason) {
   document.body.classList.add('plain');
   at('curtain').classList.remove('gone');
   dressCurtain();
-  say(`${reason} The leaves fall all the same: numbers and fingerprint are those of the program.`);
+  say(`${reason} The leaves fall all the same: numbers and state hash are those of the program.`);
 }
 
 /** Puts the picture of a preset behind the line of progress. */
@@ -126,7 +126,7 @@ async function begin(asked, { leaves, step, camera, isPlaying = true } = {}) {
   view.show(player, packs);
   describe();
   keepLink();
-  if (player.sky() !== undefined) note(`${player.name()} names the sky ${player.sky()}: drop that file to see it. The fingerprint does not depend on it.`);
+  if (player.sky() !== undefined) note(`${player.name()} names the sky ${player.sky()}: drop that file to see it. The state hash does not depend on it.`);
 }
 
 /** The same, with a message if it cannot be. */
@@ -195,7 +195,7 @@ function describe() {
   at('play').setAttribute('aria-label', pace.isPlaying ? 'Pause' : 'Play');
 }
 
-/** Command that prints the same fingerprint. */
+/** Command that prints the same state hash. */
 function command() {
   const quoted = /^[\w.-]+$/.test(player.name()) ? player.name() : `'${player.name().replaceAll("'", "'\\''")}'`;
   const leaves = player.leaves() === player.own_leaves() ? '' : ` --leaves ${player.leaves()}`;

@@ -111,7 +111,7 @@ impl Player {
         Ok(self.session.go_towards(step)?)
     }
 
-    /// Fingerprint of the whole state: what `windfall simulate` prints after as many steps.
+    /// Hash of the whole state: what `windfall simulate` prints after as many steps.
     pub fn state_hash(&self) -> String {
         self.session.state_hash()
     }

@@ -136,7 +136,7 @@ impl Session {
         Ok(())
     }
 
-    /// The fingerprint of the whole state, as `windfall simulate` prints it.
+    /// The hash of the whole state, as `windfall simulate` prints it.
     pub(crate) fn state_hash(&self) -> String {
         format!("{:016x}", self.world().state_hash())
     }

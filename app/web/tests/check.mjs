@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// Drives the page in headless Chromium and compares its fingerprints with those of the program: `node check.mjs PAGE WINDFALL CHROMIUM OUT`.
-// PAGE is what scripts/web built; a screenshot goes to OUT.
+// Drives the page in headless Chromium and compares its state hashes with those of the program: `node check.mjs PAGE WINDFALL
+// CHROMIUM TABLE OUT`. PAGE is what scripts/web built, TABLE tests/state_hashes.csv; screenshots go to OUT.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -12,8 +12,9 @@ import { join, resolve } from 'node:path';
 import { gzipSync } from 'node:zlib';
 
 import { launch, serve } from './browser.mjs';
+import { rows } from './state_hashes.mjs';
 
-const [folder, program, chromium, out] = process.argv.slice(2);
+const [folder, program, chromium, table, out] = process.argv.slice(2);
 /** Size of the page in pixels: software draws few. */
 const SIZE = [960, 540];
 /** Most bytes that the page fetches for its first picture. */
@@ -38,7 +39,7 @@ async function test(name, body) {
   console.log(`ok ${passed} - ${name} (${((Date.now() - since) / 1000).toFixed(1)} s)`);
 }
 
-/** Fingerprint that the program prints. */
+/** State hash that the program prints. */
 function native(scene, steps, ...options) {
   const line = ['simulate', scene, '--steps', String(steps), '--backend', 'cpu', '--json', ...options];
   return JSON.parse(execFileSync(program, line, { timeout: PROGRAM_MS, stdio: ['ignore', 'pipe', 'ignore'] })).state_hash;
@@ -46,7 +47,7 @@ function native(scene, steps, ...options) {
 
 /** Waits until the page has drawn so many frames. */
 const drawn = (page, frames) => page.until(`windfall.view.frames >= ${frames}`);
-/** Waits until the page shows the fingerprint of a step, and returns it. */
+/** Waits until the page shows the state hash of a step, and returns it. */
 const shown = (page, step) => page.until(`document.getElementById('hashed-step').value.replaceAll(',', '') === '${step}' && windfall.player.step() === ${step} && document.getElementById('hash').value`);
 const messages = (page) => page.run(`document.getElementById('messages').innerText`);
 const message = (page, part) => page.until(`document.getElementById('messages').innerText.includes(${JSON.stringify(part)})`);
@@ -69,7 +70,7 @@ async function goes_on(page) {
 try {
   const page = await browser.page(...SIZE);
 
-  await test('fingerprints of presets are those of the program', async () => {
+  await test('state hashes of presets are those of the program', async () => {
     await page.open(`${site.address}#scene=storm&leaves=500&step=300&play=0`);
     assert.equal(await shown(page, 300), native('storm', 300, '--leaves', '500'), 'storm with 500 leaves, as the page shows it');
     assert.equal(
@@ -77,11 +78,10 @@ try {
       'windfall simulate storm --steps 300 --leaves 500 --backend cpu',
       'and the command for it',
     );
-    // By the scenes' numbers of leaves, without a picture: synthesised flight, bodies, trees, fire and litter.
-    for (const [scene, steps] of [['storm', 300], ['six-motions', 300], ['flight-lab', 300], ['autumn-park', 60], ['bonfire', 60]]) {
+    // By the scenes' numbers of leaves, without a picture.
+    for (const { scene, steps, hash } of rows(table)) {
       const own = await page.run(`(() => { const it = windfall.engine.Player.of_preset('${scene}'); it.advance(${steps}); const hash = it.state_hash(); it.free(); return hash; })()`);
-      assert.equal(own, native(scene, steps), `${scene} after ${steps} steps`);
-      console.log(`# ${scene}, ${steps} steps: ${own}`);
+      assert.equal(own, hash, `${scene} after ${steps} steps`);
     }
   });
 
@@ -150,7 +150,7 @@ try {
   const text = `(name: "Dropped", seed: 3, sources: [(shape: Disc(center_m: (0.0, 6.0, 0.0), radius_m: 2.0), count: 300, release: Rate(per_s: 100.0, from_s: 0.0))])`;
   const file = join(scratch, 'dropped.ron');
   writeFileSync(file, text);
-  await test('a dropped scene has the fingerprint of its file, also by its link', async () => {
+  await test('a dropped scene has the state hash of its file, also by its link', async () => {
     await drop(page, 'dropped.ron', JSON.stringify(text));
     await page.until(`windfall.player.title() === 'Dropped'`);
     await page.run(`(() => { windfall.pace.isPlaying = false; windfall.pace.target = 180; })()`);
@@ -255,7 +255,7 @@ try {
   await test('without WebGPU the page says so, and the numbers are right', async () => {
     const plain = await browser.page(...SIZE, 'delete Navigator.prototype.gpu;');
     await plain.open(`${site.address}#scene=storm&leaves=500&step=120&play=0`);
-    assert.equal(await shown(plain, 120), native('storm', 120, '--leaves', '500'), 'the fingerprint');
+    assert.equal(await shown(plain, 120), native('storm', 120, '--leaves', '500'), 'the state hash');
     await plain.until(`document.getElementById('progress').innerText.includes('This browser has no WebGPU')`);
     writeFileSync(join(out, 'without-webgpu.png'), await plain.picture());
     // A fresh page with a broken link begins with the first scene; here, where nobody waits for its picture.
