@@ -5,10 +5,11 @@
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::commands::{
-    bench, drift, export, flight, info, leaf, litter, merge, motions, render, simulate, study, tree, view,
+    bench, completions, drift, export, flight, info, leaf, litter, man, merge, motions, render, simulate,
+    study, tree, view,
 };
 use crate::run::terminal;
 
@@ -57,6 +58,10 @@ pub enum Command {
     /// Write trees as glTF files, and report how large they are.
     #[command(subcommand)]
     Tree(tree::Command),
+    /// Print what a shell needs to complete commands and options.
+    Completions(completions::Arguments),
+    /// Write the pages of the manual.
+    Man(man::Arguments),
 }
 
 impl Command {
@@ -76,6 +81,8 @@ impl Command {
             Self::Motions(arguments) => motions::run(&arguments),
             Self::Leaf(command) => command.run(),
             Self::Tree(command) => command.run(),
+            Self::Completions(arguments) => completions::run(&arguments, Cli::command()),
+            Self::Man(arguments) => man::run(&arguments, Cli::command()),
         }
     }
 }
@@ -125,8 +132,6 @@ fn usage_error(error: &clap::Error) -> String {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]

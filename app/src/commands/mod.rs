@@ -3,12 +3,14 @@
 //! One file or folder per command, each with its options and what it does. Nothing but the command line imports them.
 
 pub(crate) mod bench;
+pub(crate) mod completions;
 pub(crate) mod drift;
 pub(crate) mod export;
 pub(crate) mod flight;
 pub(crate) mod info;
 pub(crate) mod leaf;
 pub(crate) mod litter;
+pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod motions;
 pub(crate) mod render;

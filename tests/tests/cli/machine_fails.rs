@@ -161,6 +161,7 @@ fn a_folder_that_cannot_be_written_to_is_found_before_anything_long_begins() {
         (["export", "scene.ron", "--frames", "0..9000", "--out"].to_vec(), out("a.usda")),
         (["study", "scene.ron", "--vary", "wind.speed=0..12/13", "--out"].to_vec(), out("study")),
         (["motions", "--out"].to_vec(), out("motions")),
+        (["man", "--out"].to_vec(), out("pages")),
         (["leaf", "make", "oak", "--out"].to_vec(), out("leaves")),
     ];
     for (mut arguments, path) in cases {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `windfall info`, `windfall bench` and `windfall motions` in use.
+//! `windfall info`, `bench`, `motions`, `man` and `completions` in use.
 
 use std::fs;
 
@@ -183,4 +183,40 @@ fn motions_are_the_tables_of_the_scene() {
         assert_eq!(tables, MotionTables::generate(species, seed, STANDARD_GRAVITY_M_S2), "{}", species.name);
     }
     assert_eq!(contents(there.path()).len(), scene.species.len() + 2, "nothing else is left");
+}
+
+#[test]
+fn every_command_has_a_page_of_the_manual() {
+    let there = folder();
+    let text = windfall(&there, &["man", "--out", "pages"]).text();
+    assert_eq!(text.lines().count(), contents(&there.path().join("pages")).len(), "all are listed: {text}");
+    let page = |command: &str| {
+        let path = there.path().join("pages").join(format!("{command}.1"));
+        fs::read_to_string(path).unwrap_or_else(|error| panic!("{command}: {error}"))
+    };
+    let help = windfall(&there, &["--help"]).text();
+    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let names: Vec<_> = commands.map_while(|line| line.split_whitespace().next()).collect();
+    assert!(names.len() > 10, "{help}");
+    for name in names {
+        assert!(
+            page("windfall").contains(&format!("windfall\\-{name}(1)")),
+            "{name} is named on the first page"
+        );
+        let title = page(&format!("windfall-{name}"));
+        assert!(title.contains("windfall"), "{name}: {title}");
+    }
+    // Of an option that this command alone has, with its description.
+    let page = page("windfall-leaf-make");
+    assert!(page.contains("\\-\\-season") && page.contains("Season"), "{page}");
+}
+
+#[test]
+fn completions_name_commands_and_options() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = windfall(&folder(), &["completions", shell]).text();
+        for word in ["simulate", "shedding", "checkpoint"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
 }
