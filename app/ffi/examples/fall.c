@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// Lets a scene fall for so many steps, and says how many leaves are in the air, how high they all are on average, and the fingerprint of the
+// Lets a scene fall for so many steps, and says how many leaves are in the air, how high they all are on average, and the hash of the
 // state: fall [SCENE [STEPS [BACKEND]]].
 
 #include <inttypes.h>

@@ -142,7 +142,7 @@ enum WindfallStatus windfall_world_step(WindfallWorld world, uint32_t count);
 // `clock` is null or may be written.
 enum WindfallStatus windfall_world_clock(WindfallWorld world, struct WindfallClock *clock);
 
-// Fingerprint of the whole state: that of `windfall simulate`, and equal on every backend that keeps the exact contract.
+// Hash of the whole state: that of `windfall simulate`, and equal on every backend that keeps the exact contract.
 //
 // # Safety
 // `hash` is null or may be written.

@@ -208,7 +208,7 @@ pub unsafe extern "C" fn windfall_world_clock(
     })
 }
 
-/// Fingerprint of the whole state: that of `windfall simulate`, and equal on every backend that keeps the exact contract.
+/// Hash of the whole state: that of `windfall simulate`, and equal on every backend that keeps the exact contract.
 ///
 /// # Safety
 /// `hash` is null or may be written.

@@ -224,7 +224,7 @@ impl PyWorld {
         counts.to_dict(py)
     }
 
-    /// Fingerprint of the whole state, sixteen hexadecimal digits: equal on every backend that keeps the exact contract.
+    /// Hash of the whole state, sixteen hexadecimal digits: equal on every backend that keeps the exact contract.
     fn state_hash(&self, py: Python<'_>) -> PyResult<String> {
         self.with_world(py, |world| format!("{:016x}", world.state_hash()))
     }
