@@ -91,16 +91,16 @@ def test_others_work_while_a_world_steps():
 
 def test_a_world_is_stepped_by_one_thread_at_a_time():
     world = wf.World("storm", backend="cpu", threads=1)
-    thread = threading.Thread(target=world.step, args=(1000,))
+    # Long enough for this thread to come in between, also where others use the processor.
+    thread = threading.Thread(target=world.step, args=(3000,))
     thread.start()
-    while world.step_index == 0:
-        time.sleep(0.001)
+    time.sleep(0.1)
     with pytest.raises(RuntimeError, match="another thread"):
         world.step()
     with pytest.raises(BufferError, match="stepping"):
         world.view("place")
     thread.join()
-    assert world.step_index == 1000
+    assert world.step_index == 3000
 
 
 def test_ctrl_c_ends_a_long_step():
