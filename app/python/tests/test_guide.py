@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: The Windfall authors
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The examples of docs/guide/python.md run one after another, as a reader types them in."""
+"""The examples of docs/guide/python.md run one after another, as a reader types them in, and so does that of the README."""
 
 import re
 from pathlib import Path
 
-PAGE = Path(__file__).parents[3] / "docs" / "guide" / "python.md"
+import windfall
+
+ROOT = Path(__file__).parents[3]
+PAGE = ROOT / "docs" / "guide" / "python.md"
 
 
 def test_examples_of_the_guide_run(tmp_path, monkeypatch):
@@ -15,3 +18,8 @@ def test_examples_of_the_guide_run(tmp_path, monkeypatch):
     names: dict = {}
     for number, example in enumerate(examples, 1):
         exec(compile(example, f"{PAGE.name}, example {number}", "exec"), names)
+
+
+def test_the_example_of_the_readme_runs():
+    [example] = re.findall(r"# Python: (.*)$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M)
+    assert re.fullmatch("[0-9a-f]{16}", eval(example, {"windfall": windfall}))
