@@ -84,7 +84,7 @@ pub use run::{backend, cancel, drawing, frame_steps, lasting, studio};
 
 /// Scenes by name, the pictures of their leaves, and values put into them where a path leads.
 pub mod scenes {
-    pub use crate::leaves::{LeafProgress, atlas_of, fit_bodies, load_scene};
+    pub use crate::leaves::{LeafProgress, atlas_at_once, atlas_of, fit_bodies, load_scene};
     pub use crate::run::memory::check_memory;
     pub use crate::study::place::SceneTree;
     pub use crate::study::variation::Setting;

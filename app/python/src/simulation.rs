@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use windfall::backend::{BackendArguments, BackendKind, Device};
 use windfall::cancel::Cancel;
 use windfall::drawing::Drawing;
+use windfall::scenes::atlas_at_once;
 use windfall::studio::Studio;
 use windfall_core::{Clock, SimError, Simulator, SimulatorInfo, World};
 use windfall_cpu::CpuSimulator;
@@ -34,7 +35,8 @@ pub(crate) struct Simulation {
     /// Steps that fit into a portion.
     portion: u32,
     adapter: Option<String>,
-    studio: Option<((u32, u32), Studio)>,
+    /// What drew the latest picture, with its size, and true if it draws drafts.
+    studio: Option<(((u32, u32), bool), Studio)>,
 }
 
 impl Simulation {
@@ -112,12 +114,14 @@ impl Simulation {
         Ok(count)
     }
 
-    /// A picture of the state, `since_s` seconds after the one before; infinite for one that has none before it.
+    /// A picture of the state, `since_s` seconds after the one before; infinite for one that has none before it. A draft is drawn at once, with small
+    /// leaves where others would have to be made.
     ///
     /// # Errors
     /// No adapter to draw on, a size that it cannot draw, leaves that cannot be made.
-    pub(crate) fn draw(&mut self, size: (u32, u32), since_s: f64) -> anyhow::Result<Vec<u8>> {
-        let studio = self.studio.take().filter(|(drawn, _)| *drawn == size);
+    pub(crate) fn draw(&mut self, size: (u32, u32), since_s: f64, is_draft: bool) -> anyhow::Result<Vec<u8>> {
+        let kind = (size, is_draft);
+        let studio = self.studio.take().filter(|(drawn, _)| *drawn == kind);
         let adapter = self.adapter.clone();
         let world = self.world()?;
         let mut studio = match studio {
@@ -127,12 +131,18 @@ impl Simulation {
                 let arguments =
                     BackendArguments { backend: Some(BackendKind::Cpu), adapter, threads: Some(1) };
                 let drawing = Drawing::without_window(&arguments)?;
-                Studio::of_world(world, drawing, size, &Cancel::default(), &|_, _| ())?
+                let cancel = Cancel::default();
+                if is_draft {
+                    let (atlas, _) = atlas_at_once(world.compiled.scene())?;
+                    Studio::with_leaves(world, &atlas, drawing, size, &cancel)?
+                } else {
+                    Studio::of_world(world, drawing, size, &cancel, &|_, _| ())?
+                }
             }
         };
         studio.go_on_from(world)?;
         let picture = studio.draw(since_s)?;
-        self.studio = Some((size, studio));
+        self.studio = Some((kind, studio));
         Ok(picture.into_raw())
     }
 }

@@ -304,25 +304,30 @@ impl PyWorld {
         Ok(decoded.into_iter().map(|(name, kind, words, bytes)| (name, kind, words, bytes.into())).collect())
     }
 
-    /// A picture of the world as it is, without motion blur and trails.
-    #[pyo3(signature = (size=(1280, 720)), text_signature = "($self, size=(1280, 720))")]
-    fn render<'py>(slf: &Bound<'py, Self>, size: (u32, u32)) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("windfall._pictures")?.call_method1("render", (slf, size))
+    /// A picture of the world as it is, without motion blur and trails. Leaves are made first where no picture has shown such before, which takes up
+    /// to a minute; a draft has the small ones then that come with the package.
+    #[pyo3(signature = (size=(1280, 720), draft=false), text_signature = "($self, size=(1280, 720), draft=False)")]
+    fn render<'py>(slf: &Bound<'py, Self>, size: (u32, u32), draft: bool) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("windfall._pictures")?.call_method1("render", (slf, size, draft))
     }
 
-    /// Pictures of the world as it goes on, which it does as they are taken: an iterable with a length.
-    #[pyo3(signature = (seconds, fps=24.0, size=(1280, 720)), text_signature = "($self, seconds, fps=24.0, size=(1280, 720))")]
+    /// Pictures of the world as it goes on, which it does as they are taken: an iterable with a length. Drafts are those of `render`.
+    #[pyo3(
+        signature = (seconds, fps=24.0, size=(1280, 720), draft=false),
+        text_signature = "($self, seconds, fps=24.0, size=(1280, 720), draft=False)"
+    )]
     fn frames<'py>(
         slf: &Bound<'py, Self>,
         seconds: f64,
         fps: f64,
         size: (u32, u32),
+        draft: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("windfall._pictures")?.call_method1("Frames", (slf, seconds, fps, size))
+        slf.py().import("windfall._pictures")?.call_method1("Frames", (slf, seconds, fps, size, draft))
     }
 
-    fn _draw(&self, py: Python<'_>, size: (u32, u32), since_s: f64) -> PyResult<Memory> {
-        self.with(py, |simulation| simulation.draw(size, since_s)).map(Memory::from)
+    fn _draw(&self, py: Python<'_>, size: (u32, u32), since_s: f64, draft: bool) -> PyResult<Memory> {
+        self.with(py, |simulation| simulation.draw(size, since_s, draft)).map(Memory::from)
     }
 
     /// Numbers of steps before frames, as the command takes them.

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Pictures: those of the command, frame by frame."""
 
+import os
 import subprocess
 import sys
 
@@ -44,6 +45,23 @@ def test_frames_step_the_world_and_are_pictures_of_it():
     assert (taken[0].array != taken[2].array).any()
     alone = wf.World("six-motions", backend="cpu").step(20).render(SIZE)
     assert np.abs(alone.array.astype(int) - taken[2].array).mean() < 2, "but for trails and blur the same"
+
+
+DRAFT = """
+import windfall as wf
+
+world = wf.World("six-motions", backend="cpu")
+[frame] = world.frames(seconds=0.1, fps=10, size=(160, 90), draft=True)
+assert (frame.array == world.render((160, 90), draft=True).array).all()
+assert len({tuple(pixel) for pixel in frame.array.reshape(-1, 4).tolist()}) > 500
+assert world._repr_png_()[:4] == b"\\x89PNG"
+"""
+
+
+def test_a_draft_makes_no_leaves(tmp_path):
+    home = {**os.environ, "XDG_CACHE_HOME": str(tmp_path), "HOME": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", DRAFT], env=home, check=True)
+    assert list(tmp_path.rglob("*.ron")) == list(tmp_path.rglob("*.png")) == [], "nothing was made and kept"
 
 
 def test_sizes_and_rates_that_make_no_sense():

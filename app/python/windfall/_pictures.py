@@ -61,12 +61,14 @@ class Picture:
 class Frames:
     """Pictures of a world as it goes on, which it does as they are taken. The first shows it as it is."""
 
-    def __init__(self, world: _windfall.World, seconds: float, fps: float, size: tuple[int, int]) -> None:
+    def __init__(
+        self, world: _windfall.World, seconds: float, fps: float, size: tuple[int, int], draft: bool
+    ) -> None:
         if not (math.isfinite(seconds) and 0 < seconds <= 86_400):
             raise ValueError(f"seconds is {seconds}; allowed: above 0, to 86400")
         if not (math.isfinite(fps) and 1 <= fps <= 1000):
             raise ValueError(f"fps is {fps}; allowed: 1 to 1000")
-        self._world, self._fps, self._size = world, fps, size
+        self._world, self._fps, self._size, self._draft = world, fps, size, draft
         self._steps = world._steps_before(fps, max(1, round(seconds * fps)))
 
     def __len__(self) -> int:
@@ -77,25 +79,25 @@ class Frames:
         for number, steps in enumerate(self._steps):
             self._world.step(steps - done)
             done = steps
-            yield draw(self._world, self._size, since_s, number)
+            yield draw(self._world, self._size, since_s, number, self._draft)
             since_s = 1.0 / self._fps
 
 
-def draw(world: _windfall.World, size: tuple[int, int], since_s: float, number: int) -> Picture:
+def draw(world: _windfall.World, size: tuple[int, int], since_s: float, number: int, draft: bool) -> Picture:
     """The world as it is, `since_s` seconds after the picture before."""
     width, height = size
-    pixels = np.frombuffer(memoryview(world._draw(size, since_s)), np.uint8)
+    pixels = np.frombuffer(memoryview(world._draw(size, since_s, draft)), np.uint8)
     return Picture(pixels.reshape(height, width, 4), number, world.time_s)
 
 
-def render(world: _windfall.World, size: tuple[int, int]) -> Picture:
+def render(world: _windfall.World, size: tuple[int, int], draft: bool) -> Picture:
     """The world as it is."""
-    return draw(world, size, math.inf, 0)
+    return draw(world, size, math.inf, 0, draft)
 
 
 def small_png(world: _windfall.World) -> bytes | None:
-    """A small picture for notebooks; None where there is nothing to draw with."""
+    """A small draft for notebooks; None where there is nothing to draw with."""
     try:
-        return render(world, _SMALL).to_png()
+        return render(world, _SMALL, draft=True).to_png()
     except (ValueError, RuntimeError):
         return None

@@ -49,7 +49,7 @@ pub fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result<Atlas>
 ///
 /// # Errors
 /// A folder that a species names and that cannot be used.
-pub(crate) fn atlas_at_once(scene: &Scene) -> anyhow::Result<(Atlas, bool)> {
+pub fn atlas_at_once(scene: &Scene) -> anyhow::Result<(Atlas, bool)> {
     atlas_of_kept(scene, &cache::load)
 }
 
