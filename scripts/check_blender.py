@@ -127,6 +127,39 @@ def check_trees(scene, frames):
     return sum(len(armature.bones) for armature in bpy.data.armatures), sum(map(len, before)), max(moved)
 
 
+def check_camera(scene, path):
+    """Compares the eye of the camera with its keys in the scene, by frame."""
+    camera = next(item for item in bpy.data.objects if item.type == "CAMERA")
+    for frame, eye in path.items():
+        scene.frame_set(frame)
+        off = np.abs(np.array(camera.matrix_world.translation) - z_up([eye])[0]).max()
+        assert off < PLACE_M, f"frame {frame}: the eye is {off} m off"
+
+
+def check_particles(scene, path, name, population, frames):
+    """Compares places and velocities of particles with their table; their number and the greatest distance."""
+    rows = {frame: [] for frame in frames}
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            if row["population"] == population and int(row["frame"]) in rows:
+                rows[int(row["frame"])].append([float(row[key]) for key in ("x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s")])
+    count, worst = 0, 0.0
+    for frame, expected in rows.items():
+        scene.frame_set(frame)
+        item = bpy.data.objects[name].evaluated_get(bpy.context.evaluated_depsgraph_get())
+        attributes = item.data.attributes
+        expected = np.array(expected)
+        assert len(item.data.points) == len(expected), f"{len(item.data.points)} particles, not {len(expected)}"
+        # In the axes of the file, as the object turns them.
+        for attribute, columns in (("position", expected[:, :3]), ("velocity", expected[:, 3:])):
+            found = np.array([entry.vector for entry in attributes[attribute].data])
+            off = np.abs(found - columns).max()
+            assert off < PLACE_M, f"frame {frame}: {attribute} is {off} off"
+            worst = max(worst, off)
+        count += len(expected)
+    return count, worst
+
+
 def said_lights(path):
     """What a stage says of its sun and its sky: intensity times colour."""
     text = path.with_name(path.stem + "_layers").joinpath("stage.usda").read_text()
@@ -262,6 +295,11 @@ def main(folder):
     report("USD, one layer, every third frame", *check_leaves(scene, table, frames[::3]))
     bones, vertices, moved = check_trees(scene, (frames[0], frames[-1]))
     print(f"USD, trees: {bones} bones, {vertices} corners of bark and berries, which move by up to {moved:.3f} m")
+    # The keys of its scene.
+    camera = {0: (0.0, 1.6, 9.0), 30: (1.0, 1.8, 8.0)}
+    check_camera(scene, camera)
+    particles = (scene, folder / "short_particles.csv", "hot_sparks", "hot sparks", frames[::10])
+    print("USD, particles: {} places and velocities, at most {:.1e} off".format(*check_particles(*particles)))
     said = said_lights(short)
     klx, sun, sky = check_lights(said, glb)
     print(f"USD, lights: a sun of {klx:.2f} klx has a strength of {sun:.4f} (times {SUN_FACTOR:g} in Blender), the sky {sky:.4f}")
@@ -289,6 +327,8 @@ def main(folder):
 
     scene = open_stage(broken_copy(short), 30)
     must_fail("a stage on its side", check_leaves, scene, table, frames[-1:])
+    must_fail("a camera on its side", check_camera, scene, camera)
+    must_fail("particles of another population", check_particles, scene, *particles[1:3], "comets", frames[::10])
     must_fail("a sky without its factor", check_lights, said, glb)
     must_fail("trees that stand still", check_trees, scene, (frames[0], frames[-1]))
 

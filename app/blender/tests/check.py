@@ -85,6 +85,9 @@ def check_preset():
     sun = next(light for light in bpy.data.lights if light.type == "SUN")
     strength = sun.energy * check_blender.np.array(sun.color)
     assert check_blender.np.allclose(strength, said["Sun"], rtol=1e-4), f"a sun of {strength}, not {said['Sun']}"
+    leaves = [material for material in bpy.data.materials if material.name.startswith("leaf_")]
+    through = [node for material in leaves for node in material.node_tree.nodes if node.type == "BSDF_TRANSLUCENT" and node.outputs[0].is_linked]
+    assert leaves and len(through) == len(leaves), f"light goes through {len(through)} of {len(leaves)} kinds of leaves"
     # Frames that the table does not have must not pass.
     wrong = check_blender.Table(csv)
     wrong.frames = {frame: table.frames[min(frame + 5, 30)] for frame in table.frames}
