@@ -40,7 +40,7 @@ def z_up(y_up):
 
 
 class Table:
-    """What a table has of the leaves that are seen in each frame: places, upper sides and tips, in slot order."""
+    """Leaves that are seen in each frame of a table: places, upper sides and tips, in slot order."""
 
     def __init__(self, path):
         frames = {}
