@@ -31,7 +31,7 @@ SIZE = (640, 360)
 FPS, FRAME = 24, 60
 # About what the automatic exposure of the preset comes to.
 EV100 = 13.0
-SAMPLES = 24
+SAMPLES = 12
 # Changes to the scene file, by the text that they replace.
 BY_HAND = {"exposure: Auto(compensation_ev: 0.3)": f"exposure: Manual(ev100: {EV100})"}
 CLEAR = {"haze: (visibility_m: 900.0, depth_m: 30.0)": "haze: (visibility_m: 100000.0, depth_m: 5.0)", "glare: (strength: 0.04)": "glare: (strength: 0.0)"}
