@@ -16,8 +16,9 @@ use crate::export::Frame;
 
 /// Height of the picture in the camera, in tenths of a metre as the format has it: a 35 mm frame of 16:9.
 const APERTURE: f32 = 0.2025;
-/// Sunlight of 100 klx becomes about 3, so that what is white in it becomes about 1.
-const EXPOSURE_EV: f32 = -5.0;
+/// Intensity of a light for each klx or kcd/m²: sunlight of 100 klx becomes about 3, so that what is white in it becomes about 1.
+/// It is multiplied out, since some readers, Blender's of skies among them, ignore `inputs:exposure`.
+const INTENSITY: f32 = 1.0 / 32.0;
 
 /// The camera, if it moves.
 #[derive(Debug)]
@@ -75,18 +76,17 @@ pub(super) fn write_view(out: &mut impl Write, scene: &Scene, daylight: &Dayligh
         write!(
             out,
             "def DistantLight \"Sun\"\n{{\nfloat inputs:angle = 0.53\ncolor3f inputs:color = ({r}, {g}, {b})\n\
-            float inputs:exposure = {EXPOSURE_EV}\nfloat inputs:intensity = {}\nbool inputs:normalize = 1\n\
+            float inputs:intensity = {}\nbool inputs:normalize = 1\n\
             matrix4d xformOp:transform = {place}\nuniform token[] xformOpOrder = [\"xformOp:transform\"]\n}}\n",
-            luminance(sun.illuminance)
+            INTENSITY * luminance(sun.illuminance)
         )?;
     }
     let sky = daylight.sky.irradiance(Vec3::Y) / std::f32::consts::PI;
     let [r, g, b] = color(sky);
     write!(
         out,
-        "def DomeLight \"Sky\"\n{{\ncolor3f inputs:color = ({r}, {g}, {b})\nfloat inputs:exposure = {EXPOSURE_EV}\n\
-        float inputs:intensity = {}\n}}\n",
-        luminance(sky)
+        "def DomeLight \"Sky\"\n{{\ncolor3f inputs:color = ({r}, {g}, {b})\nfloat inputs:intensity = {}\n}}\n",
+        INTENSITY * luminance(sky)
     )
 }
 
