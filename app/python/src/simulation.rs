@@ -35,7 +35,7 @@ pub(crate) struct Simulation {
     /// Steps that fit into a portion.
     portion: u32,
     adapter: Option<String>,
-    /// What drew the latest picture, with its size, and true if it draws drafts.
+    /// Studio of the latest picture, with its size, and true if it draws drafts.
     studio: Option<(((u32, u32), bool), Studio)>,
 }
 
