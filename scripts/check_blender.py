@@ -22,6 +22,8 @@ INTENSITY_PER_KLX = 1.0 / 32.0
 # Allowed differences: places in single precision, and orientations of instances, of which Blender reads those in half precision.
 PLACE_M = 1e-5
 TURN_DEG = 0.1
+# Largest angle between the sun and the brightest place of the sky around it, of which a pixel is 3 degrees wide.
+SKY_DEG = 10.0
 
 
 def clear(fps):
@@ -167,7 +169,8 @@ def said_lights(path):
     for name in ("Sun", "Sky"):
         light = text.split(f'Light "{name}"')[1].split("\n}")[0]
         assert "inputs:exposure" not in light, f"{name} has an exposure, which Blender ignores of skies"
-        color = [float(part) for part in re.search(r"inputs:color = \((.*)\)", light)[1].split(",")]
+        color = re.search(r"inputs:color = \((.*)\)", light)
+        color = [float(part) for part in color[1].split(",")] if color else [1.0] * 3
         found[name] = float(re.search(r"inputs:intensity = (\S+)", light)[1]) * np.array(color)
     return found
 
@@ -179,12 +182,52 @@ def check_lights(said, glb):
     sun = next(light for light in bpy.data.lights if light.type == "SUN")
     sun_strength = sun.energy * 2.0**sun.exposure * np.array(sun.color) / SUN_FACTOR
     background = next(node for node in bpy.context.scene.world.node_tree.nodes if node.type == "BACKGROUND")
-    sky_strength = background.inputs["Strength"].default_value * np.array(background.inputs["Color"].default_value[:3])
+    picture = background.inputs["Color"].links[0].from_node
+    assert picture.type == "TEX_ENVIRONMENT" and tuple(picture.image.size) == (256, 128), "the sky is a picture"
+    sky_strength = background.inputs["Strength"].default_value * np.ones(3)
     for name, strength in (("Sun", sun_strength), ("Sky", sky_strength)):
         assert np.allclose(strength, said[name], rtol=1e-4), f"{name}: {strength} is not {said[name]}"
     klx = glb["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] / 1000.0
     assert abs(luminance(sun_strength) / (INTENSITY_PER_KLX * klx) - 1.0) < 1e-3, f"{klx} klx are not {sun_strength}"
     return klx, luminance(sun_strength), luminance(sky_strength)
+
+
+def check_sky(scene, folder, to_sun):
+    """Draws the world all around, and compares where it is brightest with the direction of the sun. The angle between them in degrees."""
+    camera = bpy.data.objects.new("Around", bpy.data.cameras.new("Around"))
+    camera.data.type, camera.data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    # Upright, towards +y, where nothing else is.
+    camera.rotation_euler, camera.location = (np.pi / 2, 0.0, 0.0), (0.0, 0.0, 1000.0)
+    scene.collection.objects.link(camera)
+    before, scene.camera = scene.camera, camera
+    width, height = 128, 64
+    draw(scene, (width, height), 4, folder / "around.exr")
+    pixels = np.array(bpy.data.images.load(scene.render.filepath).pixels).reshape(height, width, 4)[:, :, :3].sum(2)
+    scene.camera = before
+    bpy.data.objects.remove(camera)
+    # Above the ground; rows begin at the bottom.
+    pixels[: height // 2] = 0.0
+    row, column = np.unravel_index(pixels.argmax(), pixels.shape)
+    up, right = np.pi * ((row + 0.5) / height - 0.5), 2 * np.pi * ((column + 0.5) / width - 0.5)
+    brightest = Vector((np.cos(up) * np.sin(right), np.cos(up) * np.cos(right), np.sin(up)))
+    off = float(np.degrees(brightest.angle(to_sun)))
+    assert off < SKY_DEG, f"the sky is brightest {off:.0f} degrees from the sun"
+    return off
+
+
+def direction_to_sun():
+    """Direction to the sun of an imported stage."""
+    sun = next(item for item in bpy.data.objects if item.type == "LIGHT" and item.data.type == "SUN")
+    return sun.matrix_world.to_3x3() @ Vector((0, 0, 1))
+
+
+def draw(scene, size, samples, path):
+    """Draws a picture with Cycles."""
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", samples, False
+    scene.render.resolution_x, scene.render.resolution_y = size
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
 
 
 def check_sunlight(folder):
@@ -202,11 +245,7 @@ def check_sunlight(folder):
     bpy.context.object.data.energy = 2.0
     bpy.ops.object.camera_add(location=(0.0, 0.0, 5.0))
     scene.camera = bpy.context.object
-    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, False
-    scene.render.resolution_x = scene.render.resolution_y = 8
-    scene.render.image_settings.file_format = "OPEN_EXR"
-    scene.render.filepath = str(folder / "white.exr")
-    bpy.ops.render.render(write_still=True)
+    draw(scene, (8, 8), 16, folder / "white.exr")
     pixels = np.array(bpy.data.images.load(scene.render.filepath).pixels).reshape(-1, 4)[:, :3]
     assert np.allclose(pixels, 2.0 / np.pi, rtol=0.01), f"white ground under a sun of 2 is {pixels.mean()}, not 2 / pi"
     return float(pixels.mean() * np.pi)
@@ -302,7 +341,10 @@ def main(folder):
     print("USD, particles: {} places and velocities, at most {:.1e} off".format(*check_particles(*particles)))
     said = said_lights(short)
     klx, sun, sky = check_lights(said, glb)
-    print(f"USD, lights: a sun of {klx:.2f} klx has a strength of {sun:.4f} (times {SUN_FACTOR:g} in Blender), the sky {sky:.4f}")
+    print(f"USD, lights: a sun of {klx:.2f} klx has a strength of {sun:.4f} (times {SUN_FACTOR:g} in Blender), the picture of the sky one of {sky:.4f}")
+    to_sun = direction_to_sun()
+    print(f"USD, sky: brightest {check_sky(scene, folder, to_sun):.1f} degrees from the sun")
+    must_fail("a sky that is turned around", check_sky, scene, folder, Vector((-to_sun.x, -to_sun.y, to_sun.z)))
 
     print(f"Cycles: a sun of strength 2 lights a surface with {check_sunlight(folder):.4f}")
 

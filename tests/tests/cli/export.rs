@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
+use glam::Vec3;
 use tempfile::TempDir;
 
 use crate::common_cli::{assert_interrupted, assert_refused, file, folder, windfall};
@@ -122,7 +123,7 @@ fn point_clouds_have_the_numbers_of_the_table() {
         assert_eq!(["vx", "vy", "vz"].map(value), numbers(row, SPEED), "{row:?}");
         assert_eq!(["qx", "qy", "qz", "qw"].map(value), numbers(row, TURN), "{row:?}");
         assert_eq!([value("size")], numbers(row, ["size_m"]), "{row:?}");
-        let normal = glam::Quat::from_array(numbers(row, TURN)) * glam::Vec3::Y;
+        let normal = glam::Quat::from_array(numbers(row, TURN)) * Vec3::Y;
         assert!(normal.distance(["nx", "ny", "nz"].map(value).into()) < 1e-6, "{row:?}");
         assert_eq!(u32::from_le_bytes(word(4 * names.len())).to_string(), row["id"], "{row:?}");
         let state = ["dormant", "attached", "falling", "resting"][usize::from(vertex[width - 2])];
@@ -241,6 +242,38 @@ fn a_stage_has_objects_where_they_are() {
     assert!((at(30) - at(0) - 1.4).abs() < 1e-4, "the walker goes {} m in a second", at(30) - at(0));
 }
 
+/// In latitudes and longitudes as OpenEXR lays them out: the middle column lies towards +z, x grows to the left.
+#[test]
+fn the_sky_of_a_stage_is_a_picture_that_is_brightest_around_the_sun() {
+    let there = folder();
+    let plate = "species: [(name: \"plate\", shape: Plate)]";
+    file(&there, "low.ron", &format!("({plate}, view: (sun: (elevation_deg: 25.0, azimuth_deg: 70.0)))"));
+    let run =
+        ["export", "low.ron", "--backend", "cpu", "--leaves", "2", "--frames", "0..1", "--out", "low.usda"];
+    windfall(&there, &run).text();
+    let stage = fs::read_to_string(there.path().join("low_layers/stage.usda")).expect("a stage");
+    assert!(stage.contains("inputs:texture:file = @./textures/sky.hdr@"), "{stage}");
+    let (_, sun) = stage.split_once("def DistantLight \"Sun\"").expect("a sun");
+    let (_, matrix) = sun.split_once("xformOp:transform = ").expect("its attitude");
+    let (matrix, _) = matrix.split_once('\n').expect("a line");
+    let numbers: Vec<f32> = matrix
+        .split(|c: char| !matches!(c, '0'..='9' | '.' | '-' | 'e'))
+        .filter(|word| !word.is_empty())
+        .map(|word| word.parse().expect("a number"))
+        .collect();
+    // The third row: light shines the other way.
+    let to_sun = Vec3::from_slice(&numbers[8..11]);
+    let sky = image::open(there.path().join("low_layers/textures/sky.hdr")).expect("a picture").to_rgb32f();
+    let (width, height) = (sky.width() as f32, sky.height() as f32);
+    let light = |pixel: &image::Rgb<f32>| pixel.0.iter().sum::<f32>();
+    let (x, y, _) = sky.enumerate_pixels().max_by(|a, b| light(a.2).total_cmp(&light(b.2))).expect("pixels");
+    let longitude = std::f32::consts::PI * (1.0 - 2.0 * (x as f32 + 0.5) / width);
+    let latitude = std::f32::consts::PI * (0.5 - (y as f32 + 0.5) / height);
+    let [(east, north), (up, level)] = [longitude, latitude].map(libm::sincosf);
+    let brightest = Vec3::new(level * east, up, level * north);
+    assert!(to_sun.dot(brightest) > 0.98, "{brightest} is not towards the sun, {to_sun}");
+}
+
 #[test]
 fn both_backends_write_the_same_stage() {
     let there = scene();
@@ -254,7 +287,7 @@ fn both_backends_write_the_same_stage() {
     for (a, b) in cpu.iter().zip(&wgpu) {
         assert_eq!((&a["id"], &a["state"]), (&b["id"], &b["state"]), "the same leaf");
         if a["state"] != "dormant" {
-            let apart = glam::Vec3::from(numbers(a, PLACE)).distance(numbers(b, PLACE).into());
+            let apart = Vec3::from(numbers(a, PLACE)).distance(numbers(b, PLACE).into());
             assert!(apart < 1e-3, "{apart} m apart: {a:?} {b:?}");
         }
     }

@@ -33,12 +33,12 @@ impl EnvironmentMap {
     }
 
     /// Width and height in pixels.
-    pub(crate) fn size(&self) -> (usize, usize) {
+    pub fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
-    /// Pixels, row by row from the zenith.
-    pub(crate) fn pixels(&self) -> &[Vec3] {
+    /// Pixels in kcd/m², linear Rec. 709, row by row from the zenith.
+    pub fn pixels(&self) -> &[Vec3] {
         &self.pixels
     }
 

@@ -128,6 +128,7 @@ impl UsdExport {
                 });
                 written.map_err(WriteError::at(&folder))?;
                 prototypes::write_pictures(&parts, &folder, &foliage)?;
+                view::write_sky(&parts, &folder, &daylight)?;
                 trees::write_pictures(&parts, &folder, job.scene_trees)?;
             }
         }

@@ -2,23 +2,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The camera of a scene and its light.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
 
 use glam::{Mat4, Vec3};
+use image::Rgb;
+use image::codecs::hdr::HdrEncoder;
 use windfall_core::Scene;
 use windfall_core::scene::{self, CameraKey, camera_at};
 use windfall_render::camera::Camera;
 use windfall_render::light::{Daylight, luminance};
 
+use super::prototypes::PICTURES;
 use super::samples::{Handle, Samples};
 use super::text;
 use crate::export::Frame;
+use crate::files::WriteError;
 
 /// Height of the picture in the camera, in tenths of a metre as the format has it: a 35 mm frame of 16:9.
 const APERTURE: f32 = 0.2025;
 /// Intensity of a light for each klx or kcd/m²: sunlight of 100 klx becomes about 3, so that what is white in it becomes about 1.
 /// It is multiplied out, since some readers, Blender's of skies among them, ignore `inputs:exposure`.
 const INTENSITY: f32 = 1.0 / 32.0;
+
+/// Picture of the sky.
+const SKY: &str = "sky.hdr";
 
 /// The camera, if it moves.
 #[derive(Debug)]
@@ -81,13 +90,26 @@ pub(super) fn write_view(out: &mut impl Write, scene: &Scene, daylight: &Dayligh
             INTENSITY * luminance(sun.illuminance)
         )?;
     }
-    let sky = daylight.sky.irradiance(Vec3::Y) / std::f32::consts::PI;
-    let [r, g, b] = color(sky);
     write!(
         out,
-        "def DomeLight \"Sky\"\n{{\ncolor3f inputs:color = ({r}, {g}, {b})\nfloat inputs:intensity = {}\n}}\n",
-        INTENSITY * luminance(sky)
+        "def DomeLight \"Sky\"\n{{\nfloat inputs:intensity = {INTENSITY}\n\
+        asset inputs:texture:file = @./{PICTURES}/{SKY}@\ntoken inputs:texture:format = \"latlong\"\n}}\n"
     )
+}
+
+/// Writes the picture of the sky, in kcd/m²; `destination` is the folder that errors name. The format has OpenEXR's latitudes and longitudes, where the
+/// middle column lies towards +z: half a turn from our own.
+pub(super) fn write_sky(folder: &Path, destination: &Path, daylight: &Daylight) -> Result<(), WriteError> {
+    let (width, height) = daylight.sky.size();
+    let rows = daylight.sky.pixels().chunks(width).flat_map(|row| {
+        let (left, right) = row.split_at(width / 2);
+        right.iter().chain(left)
+    });
+    let pixels: Vec<_> = rows.map(|pixel| Rgb(pixel.max(Vec3::ZERO).to_array())).collect();
+    let failed = WriteError::at(destination);
+    let file = File::create(folder.join(PICTURES).join(SKY)).map_err(&failed)?;
+    let encoded = HdrEncoder::new(BufWriter::new(file)).encode(&pixels, width, height);
+    encoded.map_err(|error| failed(io::Error::other(error)))
 }
 
 /// From the camera's frame, which looks along -z with y up, to the world.
