@@ -368,7 +368,7 @@ fn no_adapter() {
 fn a_full_disk() {
     use std::process::Stdio;
     let there = folder();
-    let arguments = ["simulate", "--steps", "1", "--leaves", "9", "--threads", "1"];
+    let arguments = ["simulate", "six-motions", "--steps", "1", "--backend", "cpu"];
     let mut command = crate::common_cli::command(&there, &arguments);
     let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
     let output = command.stdout(Stdio::from(full)).output().expect("the program starts");
