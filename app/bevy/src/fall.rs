@@ -61,7 +61,7 @@ impl From<Handle<FallAsset>> for FallScene {
 pub enum FallError {
     /// A file that cannot be loaded.
     #[error(transparent)]
-    Asset(AssetLoadError),
+    Asset(Box<AssetLoadError>),
     /// A scene that cannot be built.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -129,7 +129,7 @@ pub(crate) fn report_assets(
     for failure in failures.read() {
         for (entity, fall) in &falls {
             if matches!(&fall.scene, FallScene::Asset(handle) if handle.id() == failure.id) {
-                commands.entity(entity).insert(FallError::Asset(failure.error.clone()));
+                commands.entity(entity).insert(FallError::Asset(Box::new(failure.error.clone())));
             }
         }
     }
