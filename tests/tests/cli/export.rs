@@ -247,7 +247,7 @@ fn a_stage_has_objects_where_they_are() {
 fn the_sky_of_a_stage_is_a_picture_that_is_brightest_around_the_sun() {
     let there = folder();
     let plate = "species: [(name: \"plate\", shape: Plate)]";
-    file(&there, "low.ron", &format!("({plate}, view: (sun: (elevation_deg: 25.0, azimuth_deg: 70.0)))"));
+    file(&there, "low.ron", format!("({plate}, view: (sun: (elevation_deg: 25.0, azimuth_deg: 70.0)))"));
     let run =
         ["export", "low.ron", "--backend", "cpu", "--leaves", "2", "--frames", "0..1", "--out", "low.usda"];
     windfall(&there, &run).text();
