@@ -29,14 +29,21 @@ enum Backend {
     },
 }
 
+/// Pictures that one studio can draw.
+#[derive(Clone, Copy, PartialEq)]
+struct PictureKind {
+    size: (u32, u32),
+    is_draft: bool,
+}
+
 /// A world that goes on.
 pub(crate) struct Simulation {
     backend: Backend,
     /// Steps that fit into a portion.
     portion: u32,
     adapter: Option<String>,
-    /// Studio of the latest picture, with its size, and true if it draws drafts.
-    studio: Option<(((u32, u32), bool), Studio)>,
+    /// Studio of the latest picture.
+    studio: Option<(PictureKind, Studio)>,
 }
 
 impl Simulation {
@@ -120,7 +127,7 @@ impl Simulation {
     /// # Errors
     /// No adapter to draw on, a size that it cannot draw, leaves that cannot be made.
     pub(crate) fn draw(&mut self, size: (u32, u32), since_s: f64, is_draft: bool) -> anyhow::Result<Vec<u8>> {
-        let kind = (size, is_draft);
+        let kind = PictureKind { size, is_draft };
         let studio = self.studio.take().filter(|(drawn, _)| *drawn == kind);
         let adapter = self.adapter.clone();
         let world = self.world()?;
