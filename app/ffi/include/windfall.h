@@ -146,8 +146,7 @@ enum WindfallStatus windfall_world_clock(WindfallWorld world, struct WindfallClo
 //
 // # Safety
 // `hash` is null or may be written.
-enum WindfallStatus windfall_world_hash(WindfallWorld world,
-                                        uint64_t *hash);
+enum WindfallStatus windfall_world_hash(WindfallWorld world, uint64_t *hash);
 
 // Counts of a world's leaves.
 //
