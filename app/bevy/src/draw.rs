@@ -26,11 +26,11 @@ use crate::plugin::WindfallSystems;
 
 /// Most leaves of a fall that are drawn: those of the first slots.
 const MOST_DRAWN: usize = 1 << 20;
-/// Corners of the grid that a leaf is drawn with, along each side; a constant of the shader as well.
-const CORNERS: u32 = 3;
+/// Corners along each side of the grid that a leaf is drawn with. The shader states how many a leaf has.
+const SIDE_CORNERS: u32 = 3;
 /// Place of the picture in the word of a row.
 const PICTURE_SHIFT: u32 = 16;
-/// Mark of a leaf at rest there.
+/// Mark of a leaf at rest there; stated in the shader as well.
 const RESTING: u32 = 1 << 31;
 
 const SHADER: Handle<Shader> = uuid_handle!("5b8f4f0e-3c1d-4d0f-9e55-0c9a6a1f7c2e");
@@ -201,14 +201,15 @@ fn rows(leaves: &Leaves, of_species: &[Range<u32>]) -> Vec<u8> {
 /// A grid for every leaf. Corners only say where on the picture they are; the shader finds their leaf by their number.
 fn mesh(leaf_count: usize) -> Mesh {
     let leaf_count = u32::try_from(leaf_count).expect("at most the leaves that are drawn");
-    let corners = (0..CORNERS).flat_map(|y| (0..CORNERS).map(move |x| UVec2::new(x, y)));
+    let corners = (0..SIDE_CORNERS).flat_map(|y| (0..SIDE_CORNERS).map(move |x| UVec2::new(x, y)));
     let corners: Vec<[f32; 2]> =
-        corners.map(|corner| (corner.as_vec2() / (CORNERS - 1) as f32).to_array()).collect();
+        corners.map(|corner| (corner.as_vec2() / (SIDE_CORNERS - 1) as f32).to_array()).collect();
     let uvs: Vec<[f32; 2]> = (0..leaf_count).flat_map(|_| corners.iter().copied()).collect();
-    let cells = (0..CORNERS - 1).flat_map(|y| (0..CORNERS - 1).map(move |x| x + y * CORNERS));
-    let triangles: Vec<u32> =
-        cells.flat_map(|at| [0, CORNERS, 1, 1, CORNERS, CORNERS + 1].map(|corner| at + corner)).collect();
-    let first_corners = (0..leaf_count).map(|leaf| leaf * CORNERS * CORNERS);
+    let cells = (0..SIDE_CORNERS - 1).flat_map(|y| (0..SIDE_CORNERS - 1).map(move |x| x + y * SIDE_CORNERS));
+    let triangles: Vec<u32> = cells
+        .flat_map(|at| [0, SIDE_CORNERS, 1, 1, SIDE_CORNERS, SIDE_CORNERS + 1].map(|corner| at + corner))
+        .collect();
+    let first_corners = (0..leaf_count).map(|leaf| leaf * SIDE_CORNERS.pow(2));
     let indices =
         first_corners.flat_map(|first| triangles.iter().map(move |corner| first + corner)).collect();
     Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::RENDER_WORLD)
@@ -247,6 +248,15 @@ mod tests {
         assert_eq!(mesh.count_vertices(), 9 * leaves.len(), "nine corners a leaf");
         let last = mesh.indices().expect("triangles").iter().max();
         assert_eq!(last, Some(mesh.count_vertices() - 1), "triangles reach the last corner");
+    }
+
+    #[test]
+    fn the_shader_states_the_same_constants() {
+        let shader = include_str!("leaf.wgsl");
+        let corners = format!("const LEAF_CORNERS: u32 = {}u;", SIDE_CORNERS.pow(2));
+        let resting = format!("const RESTING: u32 = {RESTING:#x}u;");
+        assert!(shader.contains(&corners) && shader.contains(&resting), "{corners} {resting}");
+        assert!(shader.contains(&format!(">> {PICTURE_SHIFT}u")), "and where the picture is");
     }
 
     #[test]

@@ -11,8 +11,8 @@
 #import bevy_pbr::forward_io::VertexOutput
 #endif
 
-// Corners of the grid of a leaf: a constant of draw.rs as well.
-const CORNERS: u32 = 9u;
+// Corners of a leaf, those of draw.rs along both sides.
+const LEAF_CORNERS: u32 = 9u;
 const RESTING: u32 = 0x80000000u;
 
 struct LeafRow {
@@ -56,7 +56,7 @@ fn random_of(slot: u32) -> vec3<f32> {
 
 @vertex
 fn vertex(corner: Corner) -> VertexOutput {
-    let slot = (corner.index - mesh[corner.instance].first_vertex_index) / CORNERS;
+    let slot = (corner.index - mesh[corner.instance].first_vertex_index) / LEAF_CORNERS;
     let leaf = leaves[slot];
     let picture = pictures[(leaf.look & ~RESTING) >> 16u];
     let size = f32(leaf.look & 0xffffu) / 16384.0;
