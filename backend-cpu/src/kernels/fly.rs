@@ -66,7 +66,7 @@ enum Together {
 }
 
 /// Steps the bodies of blocks side by side; those that land, and the last few slots, one by one. The flight is called in one place, since
-/// every call of it is another copy of its code: the longest there is, and minutes of compilation.
+/// every call of it is another copy of long code, which takes long to compile.
 #[inline(always)]
 fn fly_lanes<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
     let mut few: FewOfBlocks = [0; CHUNK / BLOCK];

@@ -186,7 +186,7 @@ impl ParticleBlock<'_> {
             Some(frame) => in_frame(frame, start),
             None => start,
         };
-        // Called in one place: every call is another copy of the longest code of all.
+        // Called in one place, as the flight of bodies is: this is the longest code of all.
         let mut end = particle_free_step(cx, population, coasts, inside, air, mutual);
         if let Some(frame) = frame {
             end = carried_flight(frame, end);

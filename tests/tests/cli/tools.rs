@@ -203,8 +203,8 @@ fn every_command_has_a_page_of_the_manual() {
             page("windfall").contains(&format!("windfall\\-{name}(1)")),
             "{name} is named on the first page"
         );
-        let title = page(&format!("windfall-{name}"));
-        assert!(title.contains("windfall"), "{name}: {title}");
+        let page = page(&format!("windfall-{name}"));
+        assert!(page.contains(&format!(".TH windfall-{name} 1")), "{name}: {page}");
     }
     // Of an option that this command alone has, with its description.
     let page = page("windfall-leaf-make");
