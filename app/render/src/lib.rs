@@ -21,6 +21,7 @@ mod marks;
 pub mod objects;
 mod park;
 mod particles;
+mod quality;
 mod random;
 mod renderer;
 mod scenery;
@@ -40,6 +41,7 @@ pub use marks::{
     ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, ParticleMeasure, ParticlePaint, RESTING,
     ShelterMap, population_bytes, shade_bytes,
 };
+pub use quality::Quality;
 pub use renderer::Renderer;
 pub use renderer::scene::{RenderScene, RendererOptions};
 pub use trees::bark_texture::{BARK_SIZE, paint_bark};

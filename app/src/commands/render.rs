@@ -22,6 +22,7 @@ use crate::run::looped::build_cycle;
 use crate::run::parse::whole;
 use crate::run::parse::{frame_rate, loop_length, picture_size, within};
 use crate::run::progress::{self, making_leaves};
+use crate::run::quality_arguments::QualityName;
 use crate::run::scene_arguments::SceneArguments;
 use crate::run::shots::{Shot, ShotList};
 use crate::run::sky_arguments::SkyArguments;
@@ -56,6 +57,9 @@ pub struct Arguments {
     /// Width and height in pixels [default: 1280x720, for a GIF file 640x360].
     #[arg(long, value_name = "WxH", value_parser = picture_size)]
     size: Option<(u32, u32)>,
+    /// Effort spent on each picture.
+    #[arg(long, value_enum, default_value_t = QualityName::Full)]
+    quality: QualityName,
     /// Frames per second.
     #[arg(long, value_name = "FPS", default_value = "60", value_parser = frame_rate)]
     fps: f64,
@@ -158,7 +162,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if is_still {
         first = last;
     }
-    let drawing = Drawing::without_window(&arguments.backend)?;
+    let quality = arguments.quality.into();
+    let drawing = Drawing { quality, ..Drawing::without_window(&arguments.backend)? };
     let identity = identity(arguments, &scene, &drawing, size, (first, last));
     let part = is_part.then_some(FrameRange { first, last });
     let contract = drawing.device.contract();
@@ -194,7 +199,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         say_lost(error, contract);
         drop((studio, clip));
         clip = begin(false)?;
-        studio = set_up(Drawing::after_loss(&arguments.backend)?)?;
+        studio = set_up(Drawing { quality, ..Drawing::after_loss(&arguments.backend)? })?;
         filmed = film(&mut studio, &mut clip, &shots, &timeline, 1.0 / rate, &cancel);
     }
     if cancel.check().is_err() {
@@ -242,6 +247,7 @@ fn identity(
     let shown = arguments.show.iter().map(|show| format!("{show:?}"));
     let options = json!({
         "size": [width, height],
+        "quality": drawing.quality.name(),
         "fps": arguments.fps,
         "speed": arguments.speed,
         "loop": arguments.looped,

@@ -9,6 +9,7 @@ use clap::Args;
 use crate::run::backend::BackendArguments;
 use crate::run::parse::picture_size;
 use crate::run::parse::within;
+use crate::run::quality_arguments::QualityName;
 use crate::run::scene_arguments::SceneArguments;
 use crate::run::sky_arguments::SkyArguments;
 use crate::view;
@@ -22,6 +23,9 @@ pub struct Arguments {
     sky: SkyArguments,
     #[command(flatten)]
     backend: BackendArguments,
+    /// Effort spent on each picture [default: draft if there is no hardware graphics adapter, else full].
+    #[arg(long, value_enum)]
+    quality: Option<QualityName>,
     /// Width and height of the window in pixels.
     #[arg(long, value_name = "WxH", value_parser = picture_size)]
     size: Option<(u32, u32)>,
@@ -52,6 +56,7 @@ pub(crate) fn run(arguments: Arguments) -> anyhow::Result<()> {
         outside: arguments.scene.outside.named_files(),
         open: arguments.open,
         backend: arguments.backend,
+        quality: arguments.quality.map(Into::into),
         size: arguments.size,
         show: arguments.show,
         screenshot: arguments.screenshot.map(|path| (path, arguments.after)),

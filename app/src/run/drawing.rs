@@ -7,6 +7,7 @@
 
 use anyhow::{anyhow, bail};
 use windfall_core::SimError;
+use windfall_render::Quality;
 use windfall_wgpu::{Gpu, instance_descriptor, select_adapter};
 
 use crate::run::backend::{BackendArguments, BackendKind, Device};
@@ -20,6 +21,8 @@ pub struct Drawing {
     pub gpu: Gpu,
     /// The adapter of `gpu`.
     pub adapter: wgpu::Adapter,
+    /// Effort spent on pictures.
+    pub quality: Quality,
     /// Backend that was chosen by default and the reason: a line for the user.
     pub reason: Option<String>,
 }
@@ -75,7 +78,7 @@ impl Drawing {
         };
         let simulates_on_cpu = kind.map_or(is_software, |kind| kind == BackendKind::Cpu);
         let device = if simulates_on_cpu { arguments.cpu() } else { Device::Wgpu(Box::new(gpu.clone())) };
-        Ok(Self { device, gpu, adapter, reason })
+        Ok(Self { device, gpu, adapter, quality: Quality::Full, reason })
     }
 }
 

@@ -17,6 +17,7 @@ pub(crate) mod memory;
 pub(crate) mod parse;
 pub(crate) mod planned_loss;
 pub(crate) mod progress;
+pub(crate) mod quality_arguments;
 pub(crate) mod report;
 pub(crate) mod scene_arguments;
 pub(crate) mod sharding;

@@ -79,11 +79,11 @@ impl Studio {
         cancel: &Cancel,
     ) -> anyhow::Result<Self> {
         let scene = world.compiled.scene();
-        let Drawing { device, gpu, .. } = drawing;
+        let Drawing { device, gpu, quality, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
         let backend = device.simulator(world)?;
         cancel.check()?;
-        let options = RendererOptions::for_scene(scene);
+        let options = RendererOptions { quality, ..RendererOptions::for_scene(scene) };
         let format = PictureTarget::FORMAT;
         let scene_trees = SceneTrees::of(scene, world.compiled.forest());
         let render_scene = RenderScene::of(scene, &world.compiled, &scene_trees, atlas);

@@ -10,6 +10,7 @@ use glam::{Mat4, Vec3};
 use windfall_core::shared_constants;
 
 use crate::camera::Camera;
+use crate::quality::Quality;
 
 shared_constants! {
     /// Number of shadow maps of the sun. The map after them is seen from straight above, for the sky.
@@ -18,9 +19,13 @@ shared_constants! {
 
 /// Number of all maps.
 pub(crate) const MAPS: usize = CASCADES as usize + 1;
-/// Edge of a shadow map in texels for a picture so many pixels high: its texels are about as fine as the pixels.
-pub(crate) fn shadow_size(picture_height: u32) -> u32 {
-    if picture_height > 512 { 2048 } else { 1024 }
+/// Edge of a shadow map in texels for a picture so many shaded pixels high: its texels are about as fine as the pixels.
+pub(crate) fn shadow_size(shaded_height: u32, quality: Quality) -> u32 {
+    match quality {
+        Quality::Plain => 512,
+        _ if shaded_height > 512 => 2048,
+        _ => 1024,
+    }
 }
 
 /// Far ends of the slices, in metres from the camera. Trees farther away only have the shade of their pictures.

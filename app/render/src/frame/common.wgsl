@@ -22,6 +22,11 @@ override HAS_OBJECTS: bool = true;
 override FIRE_LIGHTS: u32 = 0u;
 // Without snow nothing is wet of it.
 override HAS_SNOW: bool = false;
+// First map of the sun's shadows that is drawn, and samples of it: 1, 2 or 4.
+override FIRST_MAP: u32 = 0u;
+override SHADOW_TAPS: u32 = 4u;
+// Samples of the sky overhead.
+override SKY_TAPS: u32 = 6u;
 
 // The grid points around a place, lowest (xy) and highest (zw), and where between them it lies.
 struct Cell {

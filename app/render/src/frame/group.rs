@@ -10,6 +10,7 @@ use crate::gpu::upload;
 use crate::land::Land;
 use crate::land::hill_shade::hill_shade;
 use crate::land::texture::{LandUniform, grid_texture, land_texture, write_grid};
+use crate::quality::Quality;
 
 /// Kinds of things of a scene that stand on its land: shaders are built without those that it has not.
 #[derive(Clone, Copy, Debug)]
@@ -36,10 +37,17 @@ pub(crate) struct FrameGroup {
     /// True if the land is not level.
     pub(crate) is_hilly: bool,
     pub(crate) standing: Standing,
+    quality: Quality,
 }
 
 impl FrameGroup {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land, standing: Standing) -> Self {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        land: &Land,
+        standing: Standing,
+        quality: Quality,
+    ) -> Self {
         let hills = wgpu::TextureSampleType::Float { filterable: false };
         let mut entries = [
             uniform_entry(0),
@@ -59,14 +67,15 @@ impl FrameGroup {
             upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
         let shade = grid_texture(device, "hill shade", wgpu::TextureFormat::Rg32Float, land);
         let textures = [land_texture(device, queue, land), shade];
-        Self::bind(device, layout, shape, textures, land.hills().is_some(), standing)
+        Self::bind(device, layout, shape, textures, land.hills().is_some(), (standing, quality))
     }
 
     /// Another frame on the same land.
     pub(crate) fn another(&self, device: &wgpu::Device) -> Self {
         let Self { layout, shape, hills, hill_shade, .. } = self;
         let textures = [hills.clone(), hill_shade.clone()];
-        Self::bind(device, layout.clone(), shape.clone(), textures, self.is_hilly, self.standing)
+        let kinds = (self.standing, self.quality);
+        Self::bind(device, layout.clone(), shape.clone(), textures, self.is_hilly, kinds)
     }
 
     fn bind(
@@ -75,7 +84,7 @@ impl FrameGroup {
         shape: wgpu::Buffer,
         [hills, hill_shade]: [wgpu::TextureView; 2],
         is_hilly: bool,
-        standing: Standing,
+        (standing, quality): (Standing, Quality),
     ) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
@@ -96,19 +105,27 @@ impl FrameGroup {
                 },
             ],
         });
-        Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, standing }
+        Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, standing, quality }
+    }
+
+    /// Returns true if the map from above is drawn: something stands that hides the sky.
+    pub(crate) fn has_roof(&self) -> bool {
+        (self.standing.trees || self.standing.objects) && self.quality.sky_taps() > 0
     }
 
     /// Values of the overrides of every module that binds the group.
-    pub(crate) fn overrides(&self) -> [(&'static str, f64); 5] {
+    pub(crate) fn overrides(&self) -> [(&'static str, f64); 8] {
         let of = |is: bool| f64::from(u8::from(is));
-        let Standing { trees, objects, fire_lights, snow } = self.standing;
+        let Standing { objects, fire_lights, snow, .. } = self.standing;
         [
             ("IS_HILLY", of(self.is_hilly)),
-            ("HAS_ROOF", of(trees || objects)),
+            ("HAS_ROOF", of(self.has_roof())),
             ("HAS_OBJECTS", of(objects)),
             ("FIRE_LIGHTS", fire_lights.into()),
             ("HAS_SNOW", of(snow)),
+            ("FIRST_MAP", self.quality.first_shadow_map().into()),
+            ("SHADOW_TAPS", self.quality.shadow_taps().into()),
+            ("SKY_TAPS", self.quality.sky_taps().into()),
         ]
     }
 

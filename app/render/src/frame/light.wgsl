@@ -22,12 +22,18 @@
 // Sunlight that reaches a place past what one shadow map holds: four taps that are turned from place to place.
 fn map_shadow(map: u32, clip: vec3<f32>, turn: vec2<f32>) -> f32 {
     let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
+    if SHADOW_TAPS == 1u {
+        return textureSampleCompareLevel(shadow_maps, shadow_sampler, uv, map, clip.z);
+    }
     // Near maps are finer: their edges are as soft in metres only with wider taps.
     let reach = select(select(1.0, 1.3, map == 1u), 2.0, map == 0u) / f32(textureDimensions(shadow_maps).x);
     let one = turn * reach;
     let two = vec2(-one.y, one.x) * 0.55;
     var sum = textureSampleCompareLevel(shadow_maps, shadow_sampler, uv + one, map, clip.z);
     sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv - one, map, clip.z);
+    if SHADOW_TAPS == 2u {
+        return sum * 0.5;
+    }
     sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv + two, map, clip.z);
     sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv - two, map, clip.z);
     return sum * 0.25;
@@ -53,7 +59,7 @@ fn leaf_shadow(position: vec3<f32>) -> f32 {
     let limit = mix(0.86, 0.985, fract(own * 61.7));
     var map = CASCADES;
     var place = vec3(0.0);
-    for (var coarser = CASCADES; coarser > 0u; coarser--) {
+    for (var coarser = CASCADES; coarser > FIRST_MAP; coarser--) {
         let clip = map_place(coarser - 1u, position);
         if max(abs(clip.x), abs(clip.y)) < limit && clip.z > 0.0 && clip.z < 1.0 {
             map = coarser - 1u;
@@ -107,9 +113,8 @@ fn wet_reflectance(dry: vec3<f32>, wet: f32) -> vec3<f32> {
     return dry * (1.0 - back) / (1.0 - back * dry);
 }
 
-// Radius around a place within which the sky is sampled, in metres, and number of samples.
+// Radius around a place within which the sky is sampled, in metres.
 const SKY_REACH_M: f32 = 2.4;
-const SKY_TAPS: u32 = 6u;
 
 // Part of the sky overhead that the scene's own trees, their leaves and its objects leave open, by looks straight up from around a place,
 // as far out as leaves of a middling crown are above it; `taps` of 0 see all of it.

@@ -10,6 +10,7 @@ pub(crate) mod lens_moment;
 pub(crate) mod light_group;
 pub(crate) mod noise;
 pub(crate) mod scene_pipeline;
+pub(crate) mod sides;
 pub(crate) mod sky_texture;
 pub(crate) mod surroundings;
 

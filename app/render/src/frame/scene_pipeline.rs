@@ -14,6 +14,8 @@ pub(crate) struct ScenePipeline<'a> {
     /// The bind groups after it.
     pub(crate) groups: &'a [&'a wgpu::BindGroupLayout],
     pub(crate) topology: wgpu::PrimitiveTopology,
+    /// Leaves out triangles that are seen from behind, of closed surfaces.
+    pub(crate) culls_back: bool,
     /// Module with an entry point `fragment`.
     pub(crate) shader: &'a wgpu::ShaderModule,
     /// Entry point of its vertices.
@@ -44,7 +46,11 @@ impl ScenePipeline<'_> {
                 compilation_options: compilation_options.clone(),
                 buffers: &buffers,
             },
-            primitive: wgpu::PrimitiveState { topology: self.topology, ..Default::default() },
+            primitive: wgpu::PrimitiveState {
+                topology: self.topology,
+                cull_mode: self.culls_back.then_some(wgpu::Face::Back),
+                ..Default::default()
+            },
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(self.depth_write),

@@ -9,7 +9,7 @@ use windfall_core::layout::Float4;
 use windfall_core::scene::{Haze, View};
 use windfall_core::{shared_constants, shared_struct};
 
-use super::cascades::{MAPS, above, cascades, shadow_size};
+use super::cascades::{MAPS, above, cascades};
 use super::input::FrameInput;
 use crate::gpu::tile::Tile;
 use crate::light::{Daylight, MapError, SphericalHarmonics};
@@ -162,12 +162,12 @@ impl Surroundings {
         Self { daylight, ambient, haze, park_center, path }
     }
 
-    /// The uniform block of one frame.
+    /// The uniform block of a tile of a picture of `size` shaded pixels with shadow maps of `map_px` texels along an edge.
     pub(crate) fn frame(
         &self,
         input: &FrameInput,
         time_s: f32,
-        size: (u32, u32),
+        (size, map_px): ((u32, u32), u32),
         tile: &Tile,
     ) -> FrameUniform {
         let camera = &input.camera;
@@ -175,7 +175,6 @@ impl Surroundings {
         let aspect = width / height;
         let tangent = (0.5 * camera.vertical_fov_rad).tan();
         let sun = self.daylight.sun.direction;
-        let map_px = shadow_size(size.1);
         let [near, middle, far] = cascades(camera, aspect, sun, map_px);
         let maps = [near, middle, far, above(camera, map_px)];
         let sky = &self.daylight.sky;
@@ -240,7 +239,7 @@ mod tests {
         let camera = Camera::from(&scene::Camera::default());
         let input = FrameInput { camera, time_s: 0.0, moment: LensMoment::FIRST, origin: (0, 0) };
         let tile = tiles((640, 360), (640, 360)).next().expect("a tile");
-        let frame = surroundings.frame(&input, 0.0, (640, 360), &tile);
+        let frame = surroundings.frame(&input, 0.0, ((640, 360), 1024), &tile);
         let water_m = 0.3;
         let mirrored = frame.mirrored(water_m);
         let plain = Mat4::from_cols_array_2d(&frame.view_projection);
@@ -273,7 +272,7 @@ mod tests {
             let camera = Camera::from(&scene::Camera::default());
             let input = FrameInput { camera, time_s: 1.0, moment: LensMoment::FIRST, origin: (0, 0) };
             let tile = tiles((640, 480), (640, 480)).next().expect("a tile");
-            let frame = surroundings.frame(&input, 1.0, (640, 480), &tile);
+            let frame = surroundings.frame(&input, 1.0, ((640, 480), 1024), &tile);
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");
         }

@@ -17,13 +17,16 @@ pub(crate) const WAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Fl
 /// Multisampled light and depth of a tile, and the resolved light of the picture. Most pictures are one tile.
 #[derive(Debug)]
 pub(crate) struct Targets {
+    /// Size of the picture in pixels.
     pub(crate) size: (u32, u32),
+    /// Edge of a shaded pixel in pixels of the picture: 1, or 2 for a sample in each.
+    pub(crate) shading_px: u32,
     pub(crate) color: wgpu::TextureView,
     pub(crate) depth: wgpu::TextureView,
     pub(crate) resolved: wgpu::TextureView,
     /// Resolved light of a tile of a picture that has more than one.
     resolved_tile: Option<wgpu::TextureView>,
-    /// Size of a tile in pixels.
+    /// Size of a tile in pixels of the picture.
     pub(crate) tile_size: (u32, u32),
     /// Largest motion in a tile while the shutter is open; only if the lens asks for it.
     pub(crate) ways: Option<Ways>,
@@ -37,11 +40,12 @@ pub(crate) struct Ways {
 }
 
 impl Targets {
-    /// Targets of pictures of `size` pixels, of which at most `tile_px` are drawn at once, with room for ways or without.
+    /// Targets of pictures of `size` pixels, of which at most `tile_px` are drawn at once and `shading_px` along each edge are
+    /// shaded together, with room for ways or without.
     pub(crate) fn new(
         device: &wgpu::Device,
         size: (u32, u32),
-        tile_px: u32,
+        (tile_px, shading_px): (u32, u32),
         has_ways: bool,
     ) -> Result<Self, RenderError> {
         let limit = device.limits().max_texture_dimension_2d;
@@ -49,7 +53,9 @@ impl Targets {
         if width == 0 || height == 0 || width > limit || height > limit {
             return Err(RenderError::Size { width, height, limit });
         }
-        let tile_size = tile_size(size, tile_px);
+        let (across, down) = tile_size(size, tile_px);
+        let tile_size = (across.next_multiple_of(shading_px), down.next_multiple_of(shading_px));
+        let shaded_size = (tile_size.0 / shading_px, tile_size.1 / shading_px);
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let sampled = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
         let readable = sampled | wgpu::TextureUsages::COPY_DST;
@@ -66,19 +72,20 @@ impl Targets {
             });
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
-        let resolved_tile = (tile_size != size).then(|| {
+        let resolved_tile = (shading_px == 1 && tile_size != size).then(|| {
             view("resolved tile", HDR_FORMAT, tile_size, 1, attachment | wgpu::TextureUsages::COPY_SRC)
         });
         Ok(Self {
             size,
-            color: view("light", HDR_FORMAT, tile_size, SAMPLE_COUNT, attachment),
-            depth: view("depth", DEPTH_FORMAT, tile_size, SAMPLE_COUNT, sampled),
+            shading_px,
+            color: view("light", HDR_FORMAT, shaded_size, SAMPLE_COUNT, sampled),
+            depth: view("depth", DEPTH_FORMAT, shaded_size, SAMPLE_COUNT, sampled),
             resolved: view("resolved light", HDR_FORMAT, size, 1, readable),
             resolved_tile,
             tile_size,
             ways: has_ways.then(|| Ways {
-                samples: view("ways", WAY_FORMAT, tile_size, SAMPLE_COUNT, attachment),
-                resolved: view("resolved ways", WAY_FORMAT, tile_size, 1, sampled),
+                samples: view("ways", WAY_FORMAT, shaded_size, SAMPLE_COUNT, attachment),
+                resolved: view("resolved ways", WAY_FORMAT, shaded_size, 1, sampled),
             }),
         })
     }
@@ -88,9 +95,14 @@ impl Targets {
         tiles(self.size, self.tile_size)
     }
 
-    /// Resolve target of the scene pass.
-    pub(crate) fn resolve(&self) -> &wgpu::TextureView {
-        self.resolved_tile.as_ref().unwrap_or(&self.resolved)
+    /// Size of the whole picture in shaded pixels.
+    pub(crate) fn shaded_size(&self) -> (u32, u32) {
+        (self.size.0.div_ceil(self.shading_px), self.size.1.div_ceil(self.shading_px))
+    }
+
+    /// Resolve target of the scene pass; none where its samples become pixels.
+    pub(crate) fn resolve(&self) -> Option<&wgpu::TextureView> {
+        (self.shading_px == 1).then(|| self.resolved_tile.as_ref().unwrap_or(&self.resolved))
     }
 
     /// Puts a tile that has been resolved into its place in the picture.

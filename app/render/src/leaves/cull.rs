@@ -7,13 +7,13 @@
 //! records, with no thread idle for a leaf that is out of sight. There are no atomics: their order would show where two
 //! leaves lie equally deep.
 
-use glam::{Mat4, Vec4};
 use windfall_core::layout::Float4;
 
 use super::page::Page;
 use super::record::{CULL_GROUP_SIZE, ViewUniform};
 use super::species_table::SpeciesTable;
 use crate::frame::cascades::{CASCADES, MAPS};
+use crate::frame::sides::Sides;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
 use crate::trees::records::TreeRecords;
@@ -42,44 +42,32 @@ const MAX_WRITERS: u32 = 1024;
 const LEAST_SHARE: f32 = 1.0 / 16.0;
 
 impl ViewUniform {
-    /// The view of a camera at `eye_m`, with `pixels_per_m` at one metre.
-    pub(crate) fn perspective(clip: [[f32; 4]; 4], eye_m: [f32; 3], pixels_per_m: f32) -> Self {
-        Self { eye_m, is_parallel: 0, ..Self::with(clip, pixels_per_m, LIMITS_PX) }
+    /// The view of a camera at `eye_m`, with `pixels_per_m` at one metre, drawn with a share of the usual fineness.
+    pub(crate) fn perspective(clip: [[f32; 4]; 4], eye_m: [f32; 3], pixels_per_m: f32, share: f32) -> Self {
+        Self { eye_m, is_parallel: 0, ..Self::with(clip, pixels_per_m, LIMITS_PX, share) }
     }
 
-    /// The view of map number `map` with `pixels_per_m`.
-    pub(crate) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32, map: usize) -> Self {
+    /// The view of map number `map` with `pixels_per_m`, drawn with a share of the usual fineness.
+    pub(crate) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32, map: usize, share: f32) -> Self {
         let limits = if map < CASCADES as usize { SHADOW_LIMITS_PX } else { ABOVE_LIMITS_PX };
-        Self::with(clip, pixels_per_m, limits)
+        Self::with(clip, pixels_per_m, limits, share)
     }
 
-    fn with(clip: [[f32; 4]; 4], pixels_per_m: f32, limits_px: [f32; 4]) -> Self {
-        let [coarse_px, medium_px, fine_px, thin_px] = limits_px;
+    fn with(clip: [[f32; 4]; 4], pixels_per_m: f32, limits_px: [f32; 4], share: f32) -> Self {
+        let [coarse_px, medium_px, fine_px, thin_px] = limits_px.map(|limit_px| limit_px / share);
         Self {
-            sides: sides(clip).map(Float4),
+            sides: Sides::of(clip).0.map(Float4),
             eye_m: [0.0; 3],
             pixels_per_m,
             coarse_px,
             medium_px,
             fine_px,
             thin_px,
-            least_share: LEAST_SHARE,
+            least_share: LEAST_SHARE * share,
             is_parallel: 1,
             padding: [0; 8],
         }
     }
-}
-
-/// Planes of what a projection shows.
-fn sides(clip: [[f32; 4]; 4]) -> [[f32; 4]; 6] {
-    let clip = Mat4::from_cols_array_2d(&clip);
-    let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip.row(row));
-    [w + x, w - x, w + y, w - y, z, w - z].map(|plane| {
-        let length = plane.truncate().length();
-        // A projection without far plane has one that is none: everything lies within it.
-        let plane = if length > 1.0e-12 { plane / length } else { Vec4::new(0.0, 0.0, 0.0, f32::MAX) };
-        plane.to_array()
-    })
 }
 
 /// The pipelines of the culling.

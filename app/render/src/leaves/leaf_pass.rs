@@ -30,6 +30,7 @@ impl LeafPass {
             frame,
             groups: &[&light.layout, &species_table.layout, &cull.records_layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[

@@ -19,7 +19,7 @@ const MOST: f32 = 256.0;
 @fragment
 fn circle(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     // Depth is reversed: near plane over distance.
-    let nearness = textureLoad(depth, vec2<i32>(position.xy) - focus.corner_px, 0) / lens.near_m;
+    let nearness = textureLoad(depth, (vec2<i32>(position.xy) - focus.corner_px) / lens.shading_px, 0) / lens.near_m;
     let radius = lens.far_circle_px * (1.0 - lens.focus_m * nearness);
     return vec4(clamp(radius, -lens.max_circle_px, lens.max_circle_px), 0.0, 0.0, 1.0);
 }

@@ -54,8 +54,8 @@ shared_struct! {
         first_moment: u32,
         /// Number of moments that are metered.
         moment_count: u32,
-        /// Unused.
-        unused: f32,
+        /// Edge of a shaded pixel in pixels of the picture.
+        shading_px: i32,
         /// Weight of each moment in what the lens has adapted to, in fours.
         moment_weights: [Float4; METERED_MOMENTS as usize / 4],
     }
@@ -93,6 +93,8 @@ pub(crate) fn blur_block(height: u32) -> u32 {
 pub(crate) struct Shot {
     /// Size of the picture in pixels.
     pub(crate) size: (u32, u32),
+    /// Edge of a shaded pixel in those.
+    pub(crate) shading_px: u32,
     /// Its corner in the output.
     pub(crate) origin: (u32, u32),
     /// Its moment.
@@ -145,7 +147,7 @@ impl LensUniform {
             near_m: shot.near_m,
             first_moment: metering.first,
             moment_count: metering.count,
-            unused: 0.0,
+            shading_px: i32::try_from(shot.shading_px).unwrap_or(1),
             moment_weights: metering.weights.map(Float4),
         }
     }

@@ -12,6 +12,7 @@ pub(crate) mod group;
 pub(crate) mod metering;
 pub(crate) mod motion;
 pub(crate) mod post;
+pub(crate) mod sample_pass;
 pub(crate) mod shutter_pass;
 pub(crate) mod tonemap_pass;
 
@@ -33,6 +34,7 @@ pub(crate) fn shaders() -> Shaders {
         group::LensUniform::declaration(),
         group::Exposure::declaration(),
         focus_pass::FocusUniform::declaration(),
+        sample_pass::SampleUniform::declaration(),
         shutter_pass::ShutterUniform::declaration(),
         glare_pass::GlareScale::declaration(),
     ];
@@ -44,6 +46,7 @@ pub(crate) fn shaders() -> Shaders {
         "exposure_pass",
         "focus_pass",
         "glare_pass",
+        "sample_pass",
         "shutter_pass",
         "tonemap_pass"
     ));

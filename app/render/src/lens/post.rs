@@ -8,6 +8,7 @@ use super::exposure_pass::ExposurePass;
 use super::focus_pass::{FocusChain, FocusPass};
 use super::glare_pass::{GlareChain, GlarePass};
 use super::group::{LensGroup, LensUniform, Shot};
+use super::sample_pass::SamplePass;
 use super::shutter_pass::{ShutterChain, ShutterPass};
 use super::tonemap_pass::TonemapPass;
 use crate::gpu::targets::Targets;
@@ -36,6 +37,7 @@ pub(crate) struct Post {
 /// The passes, in their order.
 #[derive(Debug)]
 struct Passes {
+    samples: SamplePass,
     shutter: ShutterPass,
     focus: FocusPass,
     exposure: ExposurePass,
@@ -46,6 +48,8 @@ struct Passes {
 /// Resources that depend on the textures.
 #[derive(Debug)]
 struct Bound {
+    /// Samples that become pixels.
+    samples: Option<wgpu::BindGroup>,
     shutter: Option<ShutterChain>,
     focus: Option<FocusChain>,
     exposure: wgpu::BindGroup,
@@ -63,6 +67,7 @@ impl Post {
     ) -> Self {
         let group = LensGroup::new(device);
         let passes = Passes {
+            samples: SamplePass::new(device, &group),
             shutter: ShutterPass::new(device, &group),
             focus: FocusPass::new(device, &group),
             exposure: ExposurePass::new(device, &group),
@@ -115,9 +120,12 @@ impl Post {
         &self,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
-        tile: &Tile,
+        (tile, targets): (&Tile, &Targets),
         shot: &Shot,
     ) {
+        if let Some(samples) = &self.bound.samples {
+            self.passes.samples.draw(queue, encoder, &self.group, (samples, &targets.resolved), tile);
+        }
         if let Some(chain) = &self.bound.shutter {
             self.passes.shutter.take(queue, encoder, &self.group, chain, (tile, shot));
         }
@@ -170,6 +178,7 @@ impl Bound {
         let light = focus.as_ref().map_or(light, |chain| &chain.result);
         let glare = passes.glare.chain(device, queue, light, targets.size);
         Self {
+            samples: passes.samples.bind(device, targets),
             exposure: passes.exposure.bind(device, group, light),
             tonemap: passes.tonemap.bind(device, queue, light, &glare),
             glare,

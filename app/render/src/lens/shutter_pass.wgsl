@@ -26,7 +26,7 @@ const MOVING: f32 = 0.25;
 // Puts the ways of a tile, and how far away what moves is, into the picture.
 @fragment
 fn take(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let at = vec2<i32>(position.xy) - shutter.corner_px;
+    let at = (vec2<i32>(position.xy) - shutter.corner_px) / lens.shading_px;
     // A pixel that something covers in part moves as that does.
     let mean = textureLoad(drawn, at, 0);
     let way = mean.xy / max(mean.a, 1.0e-3);

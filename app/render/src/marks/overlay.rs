@@ -42,6 +42,7 @@ impl Overlay {
             frame,
             groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &compile(device, &super::shaders(), module),
             vertex: "vertex",
             constants: &[],

@@ -27,6 +27,7 @@ impl ObjectPass {
             frame,
             groups: &[&light.layout, &objects.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],

@@ -103,6 +103,7 @@ impl TreePass {
             frame,
             groups: &[&light.layout, &trees.layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],

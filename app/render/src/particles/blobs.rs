@@ -178,6 +178,7 @@ impl BlobPass {
             frame,
             groups: &[&light.layout, &drawn_layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &compile(device, &shaders, "particles/blob_pass"),
             vertex: "vertex",
             constants: &[],

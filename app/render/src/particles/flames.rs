@@ -122,6 +122,7 @@ impl FlamePass {
             frame,
             groups: &[&light.layout, &columns],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],

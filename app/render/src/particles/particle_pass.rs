@@ -56,6 +56,7 @@ impl ParticlePass {
             frame,
             groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
+            culls_back: false,
             shader: &compile(device, &super::shaders(), "particles/particle_pass"),
             vertex: "vertex",
             constants: &[],

@@ -4,8 +4,8 @@
 
 use windfall_core::scene::{Lens, View};
 
-use super::is_moving;
 use super::{Moving, Renderer};
+use super::{is_moving, lens_of};
 use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
 use crate::frame::surroundings::Surroundings;
@@ -35,8 +35,9 @@ impl Renderer {
         if size != self.targets.size {
             self.targets = self.targets_of(size)?;
             self.post.rebind(&self.device, &self.queue, &self.targets);
-            if self.shadow_pass.size_px != shadow_size(size.1) {
-                self.shadow_pass.resize(&self.device, shadow_size(size.1));
+            let map_px = shadow_size(self.targets.shaded_size().1, self.quality);
+            if self.shadow_pass.size_px != map_px {
+                self.shadow_pass.resize(&self.device, map_px);
                 self.light.set_shadow_maps(&self.device, &self.shadow_pass.maps);
             }
         }
@@ -80,6 +81,12 @@ impl Renderer {
         self.round = Some((begin_s, length_s));
     }
 
+    /// Draws each part of the scene in a pass of its own from now on, so that [`timings`](Self::timings) has it, or all in one: pictures
+    /// are the same, and take longer by parts.
+    pub fn set_split_scene(&mut self, is_split: bool) {
+        self.has_split_scene = is_split;
+    }
+
     /// Draws at most so many pixels at once from now on.
     #[cfg(test)]
     pub(crate) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
@@ -90,7 +97,8 @@ impl Renderer {
     }
 
     fn targets_of(&self, size: (u32, u32)) -> Result<Targets, RenderError> {
-        Targets::new(&self.device, size, self.tile_px, self.moving.is_some())
+        let edges = (self.tile_px, self.quality.shading_px());
+        Targets::new(&self.device, size, edges, self.moving.is_some())
     }
 
     /// Takes over another lens.
@@ -102,6 +110,7 @@ impl Renderer {
                 self.targets = targets;
             }
         }
+        let lens = lens_of(lens, self.quality);
         self.post.set_lens(&self.device, &self.queue, &self.targets, lens);
     }
 

@@ -6,12 +6,14 @@ use glam::Vec3;
 use windfall_wgpu::{LeafColumns, WorldColumns};
 
 use super::Renderer;
-use super::TIMED_POSTS;
+use super::timed::{SCENE_PARTS, ScenePart, TIMED_PARTS, TIMED_POSTS, TIMED_SCENE};
 use crate::camera::{Camera, NEAR_M};
 use crate::frame::input::FrameInput;
+use crate::frame::sides::Sides;
 use crate::frame::surroundings::FrameUniform;
 use crate::gpu::targets::Targets;
 use crate::gpu::tile::Tile;
+use crate::gpu::timing::GpuTimer;
 use crate::leaves::cull::View as LeafView;
 use crate::leaves::record::ViewUniform;
 use crate::leaves::visible::VisibleLeaves;
@@ -37,6 +39,7 @@ impl Renderer {
         let input = &FrameInput { camera, ..*input };
         let shot = Shot {
             size: self.targets.size,
+            shading_px: self.targets.shading_px,
             origin: input.origin,
             moment: input.moment,
             vertical_fov_rad: camera.vertical_fov_rad,
@@ -97,7 +100,12 @@ impl Renderer {
     ) {
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
-        let mut frame = self.surroundings.frame(input, time_s, self.targets.size, tile);
+        let mut frame = self.surroundings.frame(
+            input,
+            time_s,
+            (self.targets.shaded_size(), self.shadow_pass.size_px),
+            tile,
+        );
         if let Some((begin_s, length_s)) = self.round {
             (frame.time_s, frame.cloud_time_s) = (grass_time(input.time_s - begin_s, length_s), 0.0);
         }
@@ -110,7 +118,9 @@ impl Renderer {
         }
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {
-            water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
+            let (width, height) = self.targets.tile_size;
+            let px = self.targets.shading_px;
+            water.prepare(&self.device, &self.queue, frame, (width / px, height / px));
         }
         self.write_views(&frame, &input.camera);
         if let Some(burning) = &self.burning {
@@ -119,7 +129,15 @@ impl Renderer {
             burning.write(&self.queue, step.cast_unsigned());
         }
         self.trees.prepare(&self.queue, input.camera.eye_m());
-        self.grass_pass.prepare(&self.queue, &input.camera, self.targets.size, &self.land);
+        if self.quality.has_fine_parts() {
+            let dense = self.quality.grass_distance();
+            self.grass_pass.prepare(
+                &self.queue,
+                &input.camera,
+                (self.targets.shaded_size(), dense),
+                &self.land,
+            );
+        }
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
@@ -132,6 +150,8 @@ impl Renderer {
             species_table: &self.species_table,
             visible: &visible,
             bark: &self.bark,
+            has_twigs: self.quality.has_twig_shadows(),
+            sides: frame.shadows.map(Sides::of),
             branches: &group,
             objects: self.objects.as_ref().map(|(objects, _)| objects),
             others: &|pass, map| {
@@ -142,7 +162,6 @@ impl Renderer {
         };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
-        let writes = |pass| timer.map(|timer| timer.render_writes(pass));
         let shadow_writes = timer.map(|timer| timer.split_writes(1));
         let cull_for = |encoder: &mut wgpu::CommandEncoder, map| {
             self.cull_leaves(encoder, world, LeafView::Shadow(map));
@@ -151,12 +170,14 @@ impl Renderer {
         if self.water_pass.is_some() {
             self.cull_leaves(encoder, world, LeafView::Mirror);
         }
-        self.draw_mirror(encoder, &group);
+        self.draw_mirror(encoder, &frame, &group);
         self.cull_leaves(encoder, world, LeafView::Camera);
-        self.draw_scene(encoder, writes(2), leaves.leaf_count, &group);
+        let sides = Sides::of(frame.view_projection);
+        let part_input = PartInput { leaf_count: leaves.leaf_count, branches: &group, sides: &sides };
+        self.draw_scene(encoder, timer, part_input);
         self.draw_motion(encoder, leaves, input.time_s);
         self.targets.place(encoder, tile);
-        self.post.take_tile(&self.queue, encoder, tile, shot);
+        self.post.take_tile(&self.queue, encoder, (tile, &self.targets), shot);
     }
 
     /// Draws how far the leaves of the world and its objects move; litter lies.
@@ -172,13 +193,22 @@ impl Renderer {
     }
 
     /// Draws what the water mirrors; grass is too low to be seen in it.
-    fn draw_mirror(&self, encoder: &mut wgpu::CommandEncoder, branches: &wgpu::BindGroup) {
+    fn draw_mirror(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &FrameUniform,
+        branches: &wgpu::BindGroup,
+    ) {
         let Some(water) = &self.water_pass else { return };
+        let sides = Sides::of(water.mirrored(*frame).view_projection);
         let Some(targets) = water.targets() else { return };
-        let mut pass = begin_scene(encoder, targets, None);
+        let mut pass = begin_scene(encoder, targets, None, PassEnds::WHOLE);
         pass.set_bind_group(0, &water.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_things(&mut pass, branches);
+        self.bark_pass.draw_mirrored(&mut pass, (&self.bark, branches), &sides);
+        for part in [ScenePart::Objects, ScenePart::Leaves] {
+            self.draw_part(&mut pass, part, PartInput { leaf_count: 0, branches, sides: &sides });
+        }
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
@@ -189,19 +219,6 @@ impl Renderer {
     fn draw_particles(&self, pass: &mut wgpu::RenderPass<'_>) {
         if let Some(particles) = &self.particle_pass {
             particles.draw(pass);
-        }
-    }
-
-    /// Draws the scene's own trees, its objects, all leaves and blobs; bind groups 0 and 1 are set.
-    fn draw_things(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
-        self.bark_pass.draw(pass, branches, &self.bark);
-        if let Some((objects, object_pass)) = &self.objects {
-            object_pass.draw(pass, objects);
-        }
-        self.leaf_pass.draw(pass, &self.species_table, self.visible().into_iter());
-        self.fruit_pass.draw(pass, branches);
-        if let Some(blobs) = self.blobs() {
-            blobs.draw(pass);
         }
     }
 
@@ -218,10 +235,12 @@ impl Renderer {
 
     /// Writes the views of a frame for the culling.
     fn write_views(&self, uniform: &FrameUniform, camera: &Camera) {
-        let height_px = self.targets.size.1 as f32;
+        let height_px = self.targets.shaded_size().1 as f32;
+        let share = self.quality.leaf_share();
         let pixels_per_m = 0.5 * height_px / (0.5 * camera.vertical_fov_rad).tan();
-        let seen =
-            |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye_m, pixels_per_m);
+        let seen = |frame: &FrameUniform| {
+            ViewUniform::perspective(frame.view_projection, frame.eye_m, pixels_per_m, share)
+        };
         self.cull.write(&self.queue, LeafView::Camera, &seen(uniform));
         if let Some(water) = &self.water_pass {
             self.cull.write(&self.queue, LeafView::Mirror, &seen(&water.mirrored(*uniform)));
@@ -229,7 +248,8 @@ impl Renderer {
         for (map, clip) in uniform.shadows.into_iter().enumerate() {
             // The projection is parallel: half a map's edge is one in clip space.
             let scale = Vec3::new(clip[0][0], clip[1][0], clip[2][0]).length();
-            let seen = ViewUniform::parallel(clip, 0.5 * self.shadow_pass.size_px as f32 * scale, map);
+            let pixels_per_m = 0.5 * self.shadow_pass.size_px as f32 * scale;
+            let seen = ViewUniform::parallel(clip, pixels_per_m, map, share);
             self.cull.write(&self.queue, LeafView::Shadow(map), &seen);
         }
     }
@@ -255,39 +275,96 @@ impl Renderer {
         }
     }
 
-    /// Near things first, so that what they hide is not shaded.
-    fn draw_scene(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-        leaf_count: u32,
-        branches: &wgpu::BindGroup,
-    ) {
-        let mut pass = begin_scene(encoder, &self.targets, timestamps);
-        pass.set_bind_group(0, &self.frame.group, &[]);
-        pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_things(&mut pass, branches);
-        self.grass_pass.draw(&mut pass);
-        self.ground_pass.draw(&mut pass);
-        if let Some(snow) = &self.snow_pass {
-            snow.draw(&mut pass);
-        }
-        if let Some(water) = &self.water_pass {
-            water.draw(&mut pass);
-        }
-        self.tree_pass.draw(&mut pass, &self.trees);
-        self.sky_pass.draw(&mut pass);
-        self.draw_particles(&mut pass);
-        if let Some(shelter) = &self.shelter_pass {
-            shelter.draw(&mut pass);
-        }
-        if let Some(landings) = &self.landing_pass {
-            landings.draw(&mut pass);
-        }
-        if let Some(trails) = &self.trail_pass {
-            trails.draw(&mut pass, leaf_count);
+    /// Draws the scene, in one pass or, to time its parts, in a pass of each.
+    fn draw_scene(&self, encoder: &mut wgpu::CommandEncoder, timer: Option<&GpuTimer>, input: PartInput<'_>) {
+        let passes: &[&[ScenePart]] = if self.has_split_scene { &SCENE_PARTS } else { &[&ScenePart::ALL] };
+        for (number, parts) in (0u32..).zip(passes) {
+            let ends = PassEnds { is_first: number == 0, is_last: number as usize + 1 == passes.len() };
+            let first = if self.has_split_scene { TIMED_PARTS } else { TIMED_SCENE };
+            let writes = timer.map(|timer| timer.render_writes(first + number));
+            let mut pass = begin_scene(encoder, &self.targets, writes, ends);
+            pass.set_bind_group(0, &self.frame.group, &[]);
+            pass.set_bind_group(1, &self.light.group, &[]);
+            for part in *parts {
+                self.draw_part(&mut pass, *part, input);
+            }
         }
     }
+
+    /// Draws a part of the scene; bind groups 0 and 1 are set.
+    fn draw_part(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        part: ScenePart,
+        PartInput { leaf_count, branches, sides }: PartInput<'_>,
+    ) {
+        match part {
+            ScenePart::Bark => {
+                let has_twigs = self.quality.has_fine_parts();
+                self.bark_pass.draw(pass, (&self.bark, branches), sides, has_twigs);
+            }
+            ScenePart::Objects => {
+                if let Some((objects, object_pass)) = &self.objects {
+                    object_pass.draw(pass, objects);
+                }
+            }
+            ScenePart::Leaves => {
+                self.leaf_pass.draw(pass, &self.species_table, self.visible().into_iter());
+                self.fruit_pass.draw(pass, branches);
+                if let Some(blobs) = self.blobs() {
+                    blobs.draw(pass);
+                }
+            }
+            ScenePart::Grass if self.quality.has_fine_parts() => self.grass_pass.draw(pass),
+            ScenePart::Grass => {}
+            ScenePart::Ground => {
+                self.ground_pass.draw(pass);
+                if let Some(snow) = &self.snow_pass {
+                    snow.draw(pass);
+                }
+                if let Some(water) = &self.water_pass {
+                    water.draw(pass);
+                }
+            }
+            ScenePart::FarTrees => self.tree_pass.draw(pass, &self.trees),
+            ScenePart::Sky => self.sky_pass.draw(pass),
+            ScenePart::Particles => {
+                self.draw_particles(pass);
+                if let Some(shelter) = &self.shelter_pass {
+                    shelter.draw(pass);
+                }
+                if let Some(landings) = &self.landing_pass {
+                    landings.draw(pass);
+                }
+                if let Some(trails) = &self.trail_pass {
+                    trails.draw(pass, leaf_count);
+                }
+            }
+        }
+    }
+}
+
+/// Parts of a frame that parts of the scene are drawn with.
+#[derive(Clone, Copy)]
+struct PartInput<'a> {
+    leaf_count: u32,
+    branches: &'a wgpu::BindGroup,
+    /// Sides of the view.
+    sides: &'a Sides,
+}
+
+/// Beginning and end of the drawing of a scene.
+#[derive(Clone, Copy)]
+struct PassEnds {
+    /// Nothing is drawn before it.
+    is_first: bool,
+    /// Nothing is drawn after it: it resolves the samples.
+    is_last: bool,
+}
+
+impl PassEnds {
+    /// A scene in one pass.
+    const WHOLE: Self = Self { is_first: true, is_last: true };
 }
 
 /// Begins a pass that draws the scene into `targets`.
@@ -295,21 +372,23 @@ fn begin_scene<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     targets: &Targets,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ends: PassEnds,
 ) -> wgpu::RenderPass<'a> {
+    let color_load = if ends.is_first { wgpu::LoadOp::Clear(wgpu::Color::BLACK) } else { wgpu::LoadOp::Load };
+    let is_resolved = ends.is_last && targets.resolve().is_some();
+    let store = if is_resolved { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+    let depth_load = if ends.is_first { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("scene"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
             view: &targets.color,
             depth_slice: None,
-            resolve_target: Some(targets.resolve()),
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                store: wgpu::StoreOp::Discard,
-            },
+            resolve_target: targets.resolve().filter(|_| ends.is_last),
+            ops: wgpu::Operations { load: color_load, store },
         })],
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: &targets.depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            depth_ops: Some(wgpu::Operations { load: depth_load, store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         }),
         timestamp_writes,

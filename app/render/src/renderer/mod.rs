@@ -5,12 +5,14 @@
 mod changes;
 mod drawing;
 pub(crate) mod scene;
+mod timed;
 
 use glam::{Vec2, Vec3};
 use windfall_core::scene::Lens;
 use windfall_wgpu::{LeafColumns, WorldColumns};
 
 use self::scene::{RenderScene, RendererOptions};
+use self::timed::TIMED_PASSES;
 use crate::camera::Camera;
 use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
@@ -27,7 +29,7 @@ use crate::leaves::motion_pass::MotionPass;
 use crate::leaves::species_table::SpeciesTable;
 use crate::leaves::visible::VisibleLeaves;
 use crate::lens::motion::Motion;
-use crate::lens::post::{Post, TimedPosts};
+use crate::lens::post::Post;
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::shelter_pass::{ShelterBuffers, ShelterPass};
@@ -41,6 +43,7 @@ use crate::park::litter::Litter;
 use crate::park::park_trees::{own_trees, shedding};
 use crate::particles::flames::light_count;
 use crate::particles::particle_pass::ParticlePass;
+use crate::quality::Quality;
 use crate::scenery::grass_pass::GrassPass;
 use crate::scenery::ground_pass::GroundPass;
 use crate::scenery::sky_pass::SkyPass;
@@ -55,12 +58,6 @@ use crate::trees::branch_group::BranchGroup;
 use crate::trees::fruit_pass::FruitPass;
 use crate::trees::records::TreeRecords;
 
-/// Passes that are timed, in order of drawing.
-const TIMED_PASSES: [&str; 8] =
-    ["particle order", "shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
-/// Numbers of the timed passes after the scene.
-const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 3, focus: 4, exposure: 5, glare: 6, tone_map: 7 };
-
 /// Draws a scene's leaves in their park.
 ///
 /// One `draw` per submission: the uniforms of a frame are written through the queue.
@@ -74,6 +71,7 @@ pub struct Renderer {
     dt_s: f32,
     targets: Targets,
     tile_px: u32,
+    quality: Quality,
     frame: FrameGroup,
     light: LightGroup,
     species_table: SpeciesTable,
@@ -111,6 +109,8 @@ pub struct Renderer {
     shelter_pass: Option<ShelterPass>,
     post: Post,
     timer: Option<GpuTimer>,
+    /// Each part of the scene has a pass of its own, to be timed.
+    has_split_scene: bool,
     /// Beginning and length in seconds of a round that scenery repeats.
     round: Option<(f64, f64)>,
 }
@@ -145,7 +145,12 @@ impl Renderer {
         let center = Vec3::new(x, land.ground_m(x, z), z);
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
-        let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
+        let targets = Targets::new(
+            device,
+            size,
+            (options.tile_px, options.quality.shading_px()),
+            is_moving(&scene.view.lens),
+        )?;
         let objects = ObjectBuffers::new(device, queue, solids);
         let standing = Standing {
             trees: !scene_trees.trees.is_empty(),
@@ -153,7 +158,7 @@ impl Renderer {
             fire_lights: light_count(scene),
             snow: snow.is_some(),
         };
-        let frame = FrameGroup::new(device, queue, &land, standing);
+        let frame = FrameGroup::new(device, queue, &land, standing, options.quality);
         let species_table = SpeciesTable::new(device, queue, scene, atlas, burns)?;
         let own = own_trees(scene_trees, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
@@ -166,7 +171,7 @@ impl Renderer {
             &cull,
             &branches,
             objects.as_ref(),
-            shadow_size(size.1),
+            (shadow_size(targets.shaded_size().1, options.quality), options.quality.first_shadow_map()),
         );
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let surroundings = Surroundings::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
@@ -196,8 +201,8 @@ impl Renderer {
             ),
             visible_leaves: VisibleLeaves::new(device, queue, &cull, scene_trees, scene.leaf_count()),
             tree_records: TreeRecords::new(device, queue, scene_trees),
-            bark: BarkBuffers::new(device, queue, scene_trees, eye_m),
-            bark_pass: BarkPass::new(device, &frame, &light, &branches),
+            bark: BarkBuffers::new(device, queue, scene_trees, (eye_m, options.quality)),
+            bark_pass: BarkPass::new(device, &frame, &light, &branches, options.quality),
             burning: BurningPass::new(device, &species_table),
             leaf_pass: LeafPass::new(device, &frame, &light, &species_table, &cull),
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, scene_trees),
@@ -209,8 +214,15 @@ impl Renderer {
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),
             particle_pass: ParticlePass::new(device, queue, &frame, &light, scene),
-            post: Post::new(device, queue, &targets, output_format, scene.view.lens),
+            post: Post::new(
+                device,
+                queue,
+                &targets,
+                output_format,
+                lens_of(scene.view.lens, options.quality),
+            ),
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
+            has_split_scene: false,
             round: None,
             trail_pass: None,
             moving: None,
@@ -222,6 +234,7 @@ impl Renderer {
             targets,
             land,
             tile_px: options.tile_px,
+            quality: options.quality,
             frame,
             light,
             species_table,
@@ -275,6 +288,14 @@ impl Renderer {
     pub fn timings(&mut self) -> Vec<(&'static str, f32)> {
         self.timer.as_mut().map_or_else(Vec::new, |timer| timer.collect(&self.device).to_vec())
     }
+}
+
+/// The lens of a scene with what a quality leaves of it.
+fn lens_of(mut lens: Lens, quality: Quality) -> Lens {
+    if !quality.has_fine_parts() {
+        lens.glare.strength = 0.0;
+    }
+    lens
 }
 
 /// Returns true if what moves is drawn longer than it is.

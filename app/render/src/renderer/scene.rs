@@ -9,6 +9,7 @@ use windfall_core::{CompiledScene, Scene};
 use windfall_texgen::Atlas;
 
 use crate::park::litter::BedRim;
+use crate::quality::Quality;
 use crate::trees::SceneTrees;
 
 /// Leaves of litter on a meadow in autumn.
@@ -24,6 +25,8 @@ pub struct RendererOptions {
     pub litter_count: u32,
     /// Most pixels of a picture that are drawn at once, at least 1: larger pictures are drawn by tiles.
     pub tile_px: u32,
+    /// Effort spent on the pictures.
+    pub quality: Quality,
 }
 
 impl RendererOptions {
@@ -44,7 +47,7 @@ impl RendererOptions {
         let fringe_count = BedRim::of(scene).map_or(0, |bed| bed.fringe_count());
         let is_strewn = scene.view.trail_s == 0.0;
         let litter_count = if is_strewn { litter_count + fringe_count } else { 0 };
-        Self { litter_count, tile_px: TILE_PX }
+        Self { litter_count, tile_px: TILE_PX, quality: Quality::Full }
     }
 }
 

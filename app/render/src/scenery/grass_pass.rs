@@ -65,6 +65,7 @@ impl GrassPass {
             frame,
             groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],
@@ -83,9 +84,16 @@ impl GrassPass {
         Self { pipeline, cells, counts: [0; SHARES.len()] }
     }
 
-    /// Finds the squares of the land that `camera` sees in a picture of this size in pixels.
-    pub(crate) fn prepare(&mut self, queue: &wgpu::Queue, camera: &Camera, size: (u32, u32), land: &Land) {
-        let classes = visible_cells(camera, size, land);
+    /// Finds the squares of the land that `camera` sees in a picture of this size in shaded pixels, with a factor on the distance up to
+    /// which all blades stand.
+    pub(crate) fn prepare(
+        &mut self,
+        queue: &wgpu::Queue,
+        camera: &Camera,
+        view: ((u32, u32), f32),
+        land: &Land,
+    ) {
+        let classes = visible_cells(camera, view, land);
         self.counts = std::array::from_fn(|class| u32::try_from(classes[class].len()).unwrap_or(0));
         queue.write_buffer(&self.cells, 0, bytemuck::cast_slice(&classes.concat()));
     }
@@ -115,7 +123,11 @@ fn standing(distance_m: f32, dense_m: f32) -> f32 {
 }
 
 /// Squares in sight by class.
-fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<GrassCell>; SHARES.len()] {
+fn visible_cells(
+    camera: &Camera,
+    (size, dense): ((u32, u32), f32),
+    land: &Land,
+) -> [Vec<GrassCell>; SHARES.len()] {
     let mut classes: [Vec<GrassCell>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
     let eye = camera.eye_m();
     let height = (eye.y - land.ground_m(eye.x, eye.z)).abs();
@@ -124,7 +136,7 @@ fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<GrassCe
     }
     let tangent = (0.5 * camera.vertical_fov_rad).tan();
     let aspect = size.0 as f32 / size.1 as f32;
-    let dense_m = DENSE_M * (FINE_RAD * size.1 as f32 / (2.0 * tangent)).clamp(0.4, 1.0);
+    let dense_m = dense * DENSE_M * (FINE_RAD * size.1 as f32 / (2.0 * tangent)).clamp(0.4, 1.0);
     let (forward, right, up) = (camera.forward(), camera.right(), camera.up());
     // Inward normals of the four sides of the view.
     let sides = [
@@ -177,7 +189,7 @@ mod tests {
     #[test]
     fn squares_lie_before_the_camera_and_stay_few() {
         let camera = Camera::from(&scene::Camera::default());
-        let classes = visible_cells(&camera, (1280, 720), &level());
+        let classes = visible_cells(&camera, ((1280, 720), 1.0), &level());
         let drawn: usize =
             SHARES.into_iter().zip(&classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum();
         assert!(
@@ -188,7 +200,7 @@ mod tests {
         let count = |classes: &[Vec<GrassCell>]| -> usize {
             SHARES.into_iter().zip(classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum()
         };
-        let coarse = count(&visible_cells(&camera, (640, 360), &level()));
+        let coarse = count(&visible_cells(&camera, ((640, 360), 1.0), &level()));
         assert!(2 * coarse < drawn, "{coarse} blades in a quarter of the pixels, {drawn} in all");
     }
 
@@ -197,7 +209,7 @@ mod tests {
         let mut camera = Camera::from(&scene::Camera::default());
         camera.target_m.y = 500.0;
         assert!(
-            visible_cells(&camera, (64, 64), &level()).iter().all(Vec::is_empty),
+            visible_cells(&camera, ((64, 64), 1.0), &level()).iter().all(Vec::is_empty),
             "grass seen from 500 m"
         );
     }

@@ -32,6 +32,7 @@ impl GroundPass {
             frame,
             groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &shader,
             vertex: if mesh.is_some() { "vertex_hilly" } else { "vertex_level" },
             constants: &[],

@@ -21,6 +21,7 @@ impl SkyPass {
             frame,
             groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],

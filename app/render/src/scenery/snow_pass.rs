@@ -110,6 +110,7 @@ impl SnowPass {
                 frame,
                 groups: &[&light.layout, &layout],
                 topology: wgpu::PrimitiveTopology::TriangleList,
+                culls_back: false,
                 shader: &shader,
                 vertex,
                 constants: &[],

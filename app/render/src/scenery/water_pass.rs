@@ -44,6 +44,7 @@ impl WaterPass {
             frame,
             groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],
@@ -67,7 +68,7 @@ impl WaterPass {
         let size = (width.div_ceil(COARSER), height.div_ceil(COARSER));
         if self.mirror.as_ref().is_none_or(|(targets, _)| targets.size != size) {
             // A part of a size that fits does so too.
-            self.mirror = Targets::new(device, size, u32::MAX, false).ok().map(|targets| {
+            self.mirror = Targets::new(device, size, (u32::MAX, 1), false).ok().map(|targets| {
                 let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
                     label: Some("mirror"),
                     layout: &self.layout,

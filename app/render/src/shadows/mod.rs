@@ -6,6 +6,7 @@ use std::fmt;
 
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::frame::group::FrameGroup;
+use crate::frame::sides::Sides;
 use crate::gpu::pipeline::layout;
 use crate::gpu::shaders::{Shaders, compile, wgsl_files};
 use crate::leaves::cull::CullPass;
@@ -35,6 +36,8 @@ pub(crate) struct ShadowPass {
     /// Their edge in texels.
     pub(crate) size_px: u32,
     passes: [MapPass; MAPS],
+    /// First map that is drawn.
+    first_map: usize,
     /// True if anything stands that hides the sky.
     has_roof: bool,
 }
@@ -54,6 +57,10 @@ pub(crate) struct Casters<'a> {
     pub(crate) species_table: &'a SpeciesTable,
     pub(crate) visible: &'a [&'a VisibleLeaves],
     pub(crate) bark: &'a BarkBuffers,
+    /// True if twigs cast shadows into the nearest map; in others they are far thinner than a texel.
+    pub(crate) has_twigs: bool,
+    /// Sides of the maps.
+    pub(crate) sides: [Sides; MAPS],
     pub(crate) branches: &'a wgpu::BindGroup,
     pub(crate) objects: Option<&'a ObjectBuffers>,
     /// Drawing of what else casts a shadow into the map of a number; bind group 0 is set.
@@ -74,7 +81,7 @@ impl ShadowPass {
         cull: &CullPass,
         branches: &BranchGroup,
         objects: Option<&ObjectBuffers>,
-        size_px: u32,
+        (size_px, first_map): (u32, u32),
     ) -> Self {
         let (maps, each) = new_maps(device, size_px);
         let shaders = shaders();
@@ -126,7 +133,8 @@ impl ShadowPass {
                 }),
             }
         });
-        Self { maps, size_px, passes, has_roof: frame.standing.trees || frame.standing.objects }
+        let has_roof = frame.has_roof();
+        Self { maps, size_px, passes, first_map: first_map as usize, has_roof }
     }
 
     /// Takes maps of another size; the old ones are read no more.
@@ -148,12 +156,18 @@ impl ShadowPass {
         casters: &Casters<'_>,
         cull: &dyn Fn(&mut wgpu::CommandEncoder, usize),
     ) {
-        let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
         let drawn = if self.has_roof { MAPS } else { CASCADES as usize };
-        let (mut begin, mut end) = (begin, end);
-        for (number, pass) in self.passes[..drawn].iter().enumerate() {
+        for (number, pass) in self.passes[..drawn].iter().enumerate().skip(self.first_map) {
             cull(encoder, number);
-            let writes = if number + 1 == drawn { end.take() } else { begin.take() };
+            let writes = timestamps.as_ref().map(|[begin, end]| match number {
+                _ if self.first_map + 1 == drawn => wgpu::RenderPassTimestampWrites {
+                    end_of_pass_write_index: end.end_of_pass_write_index,
+                    ..begin.clone()
+                },
+                _ if number + 1 == drawn => end.clone(),
+                _ => begin.clone(),
+            });
+            let writes = writes.filter(|_| number == self.first_map || number + 1 == drawn);
             pass.draw(encoder, writes, frame, (casters, number));
         }
     }
@@ -249,12 +263,12 @@ impl MapPass {
             multiview_mask: None,
         });
         pass.set_bind_group(0, &frame.group, &[]);
-        if let Some(all) = casters.bark.all() {
+        if !casters.bark.trees.is_empty() {
             pass.set_pipeline(&self.bark);
-            pass.set_bind_group(2, casters.branches, &[]);
-            pass.set_vertex_buffer(0, casters.bark.vertices.slice(..));
-            pass.set_index_buffer(casters.bark.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(all, 0, 0..1);
+            casters.bark.bind(&mut pass, casters.branches);
+            for indices in casters.bark.seen(casters.sides[number], casters.has_twigs && number == 0) {
+                pass.draw_indexed(indices, 0, 0..1);
+            }
         }
         if let Some((pipeline, objects)) = self.objects.as_ref().zip(casters.objects) {
             pass.set_pipeline(pipeline);

@@ -101,7 +101,11 @@ impl Field {
         let columns = self.leaves();
         let clip = camera.view_projection(1.6).to_cols_array_2d();
         let eye_m = camera.eye_m().to_array();
-        self.cull.write(self.gpu.queue(), View::Camera, &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M));
+        self.cull.write(
+            self.gpu.queue(),
+            View::Camera,
+            &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M, 1.0),
+        );
         let mut encoder = encoder(&self.gpu);
         let leaves = (&columns, None, &self.tree_records);
         self.visible.cull(self.gpu.device(), &mut encoder, &self.cull, leaves, View::Camera);

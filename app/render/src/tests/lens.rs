@@ -34,7 +34,7 @@ impl Bench {
     fn new(size: (u32, u32), lens: Lens) -> Self {
         let gpu = gpu();
         let (device, queue) = (gpu.device(), gpu.queue());
-        let targets = Targets::new(device, size, u32::MAX, false).expect("targets");
+        let targets = Targets::new(device, size, (u32::MAX, 1), false).expect("targets");
         let post = Post::new(device, queue, &targets, PictureTarget::FORMAT, lens);
         let target = PictureTarget::new(device, size).expect("a target");
         Self { gpu, targets, post, target, moment: None }
@@ -67,6 +67,7 @@ impl Bench {
         let mut encoder = encoder(&self.gpu);
         let shot = Shot {
             size: self.targets.size,
+            shading_px: 1,
             origin: (0, 0),
             moment,
             vertical_fov_rad: 0.8,

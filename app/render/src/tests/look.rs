@@ -14,6 +14,7 @@ use windfall_wgpu::{LeafColumns, StoreBuffers};
 use super::{encoder, gpu, read};
 use crate::Measure;
 use crate::Paint;
+use crate::Quality;
 use crate::ShelterMap;
 use crate::frame::group::{FrameGroup, Standing};
 use crate::land::Land;
@@ -95,7 +96,7 @@ fn marks_tell_what_leaves_do() {
     let buffers = StoreBuffers::new(&gpu, &Leaves::zeroed(5)).expect("they fit");
     let ground = Ground { height_m: 1.0, ..Ground::default() };
     let standing = Standing { trees: false, objects: false, fire_lights: 0, snow: false };
-    let frame = FrameGroup::new(gpu.device(), gpu.queue(), &Land::of(&ground), standing);
+    let frame = FrameGroup::new(gpu.device(), gpu.queue(), &Land::of(&ground), standing, Quality::Full);
     let first = Paint { measure: Measure::Motion, most: 1.0 };
     let mut paint = PaintPass::new(gpu.device(), &frame, first, 5, 0.01, 0.0);
     // From x = 2 m on half of the wind is missing, up to z = 2 m.

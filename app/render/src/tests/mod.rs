@@ -106,7 +106,7 @@ pub(super) fn disc_atlas(scene: &Scene, size_px: u32) -> Atlas {
 /// A bench for a scene with pictures of its own.
 pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> Bench {
     let gpu = gpu();
-    let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
+    let options = RendererOptions { litter_count: 0, tile_px: u32::MAX, quality: Quality::Full };
     let solids = solids_of(&scene).expect("shapes without files");
     let is_compiled = scene.leaves_burn() || scene.weather.is_some();
     let compiled = is_compiled.then(|| CompiledScene::compile(&scene).expect("a scene"));

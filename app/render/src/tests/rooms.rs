@@ -8,8 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from the lowest to the highest: modules at the root of the crate.
-const ROOMS: [&str; 18] = [
+const ROOMS: [&str; 19] = [
     "random",
+    "quality",
     "light",
     "error",
     "gpu",

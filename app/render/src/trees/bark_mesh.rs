@@ -8,13 +8,20 @@ use glam::Vec3;
 use windfall_core::tree::{BarkDetail, bark_mesh};
 
 use super::{SceneTrees, StandingTree};
+use crate::frame::sides::Sides;
 use crate::gpu::upload;
 use crate::gpu::vertex::vertex_struct;
+use crate::quality::Quality;
 
 /// Distances from the camera, in heights of the tree and at least in metres, from which the middle and the far bark
 /// will do.
 const MIDDLE: (f32, f32) = (2.2, 22.0);
 const FAR: (f32, f32) = (7.0, 70.0);
+
+/// Largest radius of a twig in metres: nothing of the bark's pictures shows on it.
+const TWIG_M: f32 = 0.006;
+/// Largest radius as an angle from the eye: a pixel of a picture 720 pixels high with the usual camera.
+const TWIG_RAD: f32 = 0.0013;
 
 vertex_struct! {
     /// A corner of the bark.
@@ -40,7 +47,23 @@ pub(crate) struct BarkBuffers {
     pub(crate) vertices: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
     /// Indices of every tree, in the order of the scene.
-    pub(crate) trees: Vec<Range<u32>>,
+    pub(crate) trees: Vec<TreeIndices>,
+}
+
+/// Indices of one tree: first those of its limbs, then those of its twigs.
+#[derive(Clone, Debug)]
+pub(crate) struct TreeIndices {
+    pub(crate) limbs: Range<u32>,
+    pub(crate) twigs: Range<u32>,
+    /// A ball around the tree however it sways: its middle and radius in metres.
+    ball: (Vec3, f32),
+}
+
+impl TreeIndices {
+    /// Returns true if a view may show the tree.
+    pub(crate) fn is_seen(&self, sides: &Sides) -> bool {
+        sides.show(self.ball.0, self.ball.1)
+    }
 }
 
 impl BarkBuffers {
@@ -49,17 +72,28 @@ impl BarkBuffers {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         scene_trees: &SceneTrees,
-        eye_m: Vec3,
+        (eye_m, quality): (Vec3, Quality),
     ) -> Self {
         let (mut vertices, mut indices) = (Vec::new(), Vec::<u32>::new());
         let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
         let mut trees = Vec::with_capacity(scene_trees.trees.len());
         for tree in &scene_trees.trees {
-            let mesh = bark_mesh(&tree.skeleton, detail(tree, eye_m));
+            let mesh = bark_mesh(&tree.skeleton, detail(tree, eye_m, quality));
             let (first, base) = (count(indices.len()), count(vertices.len()));
-            indices.extend(mesh.indices.iter().map(|index| base + index));
-            vertices.extend((0..mesh.positions_m.len()).map(|at| vertex(tree, &mesh, at)));
-            trees.push(first..count(indices.len()));
+            let own: Vec<BarkVertex> =
+                (0..mesh.positions_m.len()).map(|at| vertex(tree, &mesh, at)).collect();
+            let twig_m = TWIG_M.max(TWIG_RAD * tree.foot_m.distance(eye_m));
+            let is_twig = |corners: &&[u32]| corners.iter().all(|&at| own[at as usize].radius_m < twig_m);
+            let (twigs, limbs): (Vec<_>, Vec<_>) = mesh.indices.chunks_exact(3).partition(is_twig);
+            indices.extend(limbs.concat().iter().map(|index| base + index));
+            let twigs_from = count(indices.len());
+            indices.extend(twigs.concat().iter().map(|index| base + index));
+            trees.push(TreeIndices {
+                limbs: first..twigs_from,
+                twigs: twigs_from..count(indices.len()),
+                ball: ball_around(&own),
+            });
+            vertices.extend(own);
         }
         let (usage, bytes) = (wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices));
         let vertices = upload::buffer(device, queue, "bark", usage, bytes);
@@ -68,18 +102,39 @@ impl BarkBuffers {
         Self { vertices, indices, trees }
     }
 
-    /// Indices of all trees; `None` without any.
-    pub(crate) fn all(&self) -> Option<Range<u32>> {
-        self.trees.last().map(|last| 0..last.end)
+    /// Makes a pass draw from the buffers, moved with the branches of `group`.
+    pub(crate) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup) {
+        pass.set_bind_group(2, group, &[]);
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
+    /// Indices of the trees that a view may show, with their twigs or without.
+    pub(crate) fn seen(&self, sides: Sides, has_twigs: bool) -> impl Iterator<Item = Range<u32>> {
+        let seen = self.trees.iter().filter(move |tree| tree.is_seen(&sides));
+        seen.map(move |tree| tree.limbs.start..if has_twigs { tree.twigs.end } else { tree.limbs.end })
     }
 }
 
+/// Share of a tree's size that its ends move when it sways in a storm.
+const SWAY: f32 = 0.25;
+
+/// A ball around a tree with vertices at rest, and room for it to sway.
+fn ball_around(vertices: &[BarkVertex]) -> (Vec3, f32) {
+    let places = || vertices.iter().map(|vertex| Vec3::from(vertex.position_m));
+    let (low, high) = (places().reduce(Vec3::min), places().reduce(Vec3::max));
+    let (low, high) = low.zip(high).unwrap_or_default();
+    (0.5 * (low + high), (0.5 + SWAY) * low.distance(high))
+}
+
 /// Level of detail of a tree's bark as seen from `eye_m`.
-fn detail(tree: &StandingTree, eye_m: Vec3) -> BarkDetail {
+fn detail(tree: &StandingTree, eye_m: Vec3, quality: Quality) -> BarkDetail {
     let distance_m = tree.foot_m.distance(eye_m);
+    let [middle, far] = quality.bark_distances();
     let height_m = tree.skeleton.height_m();
-    let beyond = |(heights, least_m): (f32, f32)| distance_m > (heights * height_m).max(least_m);
-    match (beyond(FAR), beyond(MIDDLE)) {
+    let beyond =
+        |(heights, least_m): (f32, f32), factor: f32| distance_m > factor * (heights * height_m).max(least_m);
+    match (beyond(FAR, far), beyond(MIDDLE, middle)) {
         (true, _) => BarkDetail::Far,
         (_, true) => BarkDetail::Middle,
         _ => BarkDetail::Full,
@@ -143,8 +198,8 @@ mod tests {
             assert!((vertex.radius_m - 0.2).abs() < 1e-6, "as thick as its wood: {vertex:?}");
             assert_eq!((vertex.rows[0], vertex.shares[0]), (1, 255), "moved by the second row");
         }
-        assert_eq!(detail(tree, Vec3::new(30.0, 1.0, 5.0)), BarkDetail::Full, "near");
-        assert_eq!(detail(tree, Vec3::new(60.0, 1.0, 5.0)), BarkDetail::Middle, "between");
-        assert_eq!(detail(tree, Vec3::new(130.0, 1.0, 5.0)), BarkDetail::Far, "far");
+        assert_eq!(detail(tree, Vec3::new(30.0, 1.0, 5.0), Quality::Full), BarkDetail::Full, "near");
+        assert_eq!(detail(tree, Vec3::new(60.0, 1.0, 5.0), Quality::Full), BarkDetail::Middle, "between");
+        assert_eq!(detail(tree, Vec3::new(130.0, 1.0, 5.0), Quality::Full), BarkDetail::Far, "far");
     }
 }

@@ -7,12 +7,18 @@ use super::branch_group::BranchGroup;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
+use crate::frame::sides::Sides;
 use crate::gpu::shaders::compile;
+use crate::quality::Quality;
 
-/// The bark pipeline.
+/// The pipelines of bark.
 #[derive(Debug)]
 pub(crate) struct BarkPass {
-    pipeline: wgpu::RenderPipeline,
+    /// None where limbs are drawn like twigs.
+    limbs: Option<wgpu::RenderPipeline>,
+    twigs: wgpu::RenderPipeline,
+    /// Limbs as water mirrors them, whose ripples leave little of their bark.
+    mirrored: wgpu::RenderPipeline,
 }
 
 impl BarkPass {
@@ -21,34 +27,72 @@ impl BarkPass {
         frame: &FrameGroup,
         light: &LightGroup,
         branches: &BranchGroup,
+        quality: Quality,
     ) -> Self {
-        let shader = compile(device, &super::shaders(), "trees/bark_pass");
-        let pipeline = ScenePipeline {
-            label: "bark",
-            frame,
-            groups: &[&light.layout, &branches.layout],
-            topology: wgpu::PrimitiveTopology::TriangleList,
-            shader: &shader,
-            vertex: "vertex",
-            constants: &[],
-            buffers: &[BarkVertex::layout(wgpu::VertexStepMode::Vertex)],
-            blend: None,
-            depth_write: true,
-            alpha_to_coverage: true,
+        let [limb_shader, twig_shader] =
+            ["trees/bark_pass", "trees/twig_pass"].map(|name| compile(device, &super::shaders(), name));
+        let pipeline = |label, shader, culls_back| {
+            ScenePipeline {
+                label,
+                frame,
+                groups: &[&light.layout, &branches.layout],
+                topology: wgpu::PrimitiveTopology::TriangleList,
+                culls_back,
+                shader,
+                vertex: "vertex",
+                constants: &[],
+                buffers: &[BarkVertex::layout(wgpu::VertexStepMode::Vertex)],
+                blend: None,
+                depth_write: true,
+                alpha_to_coverage: true,
+            }
+            .build(device)
+        };
+        Self {
+            limbs: quality.has_bark_pictures().then(|| pipeline("limbs", &limb_shader, true)),
+            twigs: pipeline("twigs", &twig_shader, true),
+            // Outer sides are turned round in a mirror.
+            mirrored: pipeline("mirrored bark", &twig_shader, false),
         }
-        .build(device);
-        Self { pipeline }
     }
 
-    /// Draws all trees; bind groups 0 and 1 are set.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup, mesh: &BarkBuffers) {
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(2, group, &[]);
-        pass.set_vertex_buffer(0, mesh.vertices.slice(..));
-        pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
-        // The instance is the number of the tree's record; the first is that of no tree.
-        for (range, record) in mesh.trees.iter().zip(1..) {
-            pass.draw_indexed(range.clone(), 0, record..record + 1);
+    /// Draws the trees that a view may show, with their twigs or without; bind groups 0 and 1 are set.
+    pub(crate) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        (mesh, group): (&BarkBuffers, &wgpu::BindGroup),
+        sides: &Sides,
+        has_twigs: bool,
+    ) {
+        mesh.bind(pass, group);
+        let seen = || mesh.trees.iter().zip(FIRST_RECORD..).filter(|(tree, _)| tree.is_seen(sides));
+        pass.set_pipeline(self.limbs.as_ref().unwrap_or(&self.twigs));
+        for (tree, record) in seen() {
+            pass.draw_indexed(tree.limbs.clone(), 0, record..record + 1);
+        }
+        if !has_twigs {
+            return;
+        }
+        pass.set_pipeline(&self.twigs);
+        for (tree, record) in seen() {
+            pass.draw_indexed(tree.twigs.clone(), 0, record..record + 1);
+        }
+    }
+
+    /// Draws the trees that water may mirror; bind groups 0 and 1 are set.
+    pub(crate) fn draw_mirrored(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        (mesh, group): (&BarkBuffers, &wgpu::BindGroup),
+        sides: &Sides,
+    ) {
+        mesh.bind(pass, group);
+        pass.set_pipeline(&self.mirrored);
+        for (tree, record) in mesh.trees.iter().zip(FIRST_RECORD..).filter(|(tree, _)| tree.is_seen(sides)) {
+            pass.draw_indexed(tree.limbs.start..tree.twigs.end, 0, record..record + 1);
         }
     }
 }
+
+/// Number of the first tree's record, which is the instance: the one before is that of no tree.
+const FIRST_RECORD: u32 = 1;

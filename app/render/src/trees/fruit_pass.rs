@@ -64,6 +64,7 @@ impl FruitPass {
             frame,
             groups: &[&light.layout, &branches.layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
+            culls_back: false,
             shader: &shader,
             vertex: "vertex",
             constants: &[],

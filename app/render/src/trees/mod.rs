@@ -37,7 +37,9 @@ pub(crate) fn shaders() -> Shaders {
         + &fruit_pass::FruitInstance::declaration();
     let snow = snow::wgsl_constants().into_iter().filter(|(name, _)| *name == "SNOW_UNIT_KG").collect();
     shaders.extend([("trees/structs", declarations([cluster::wgsl_constants(), snow]) + &structs)]);
-    shaders.extend(wgsl_files!("trees": "records", "bark_shape", "bark_pass", "fruit_pass"));
+    shaders.extend(
+        wgsl_files!("trees": "records", "bark_shape", "bark_look", "bark_pass", "twig_pass", "fruit_pass"),
+    );
     shaders
 }
 

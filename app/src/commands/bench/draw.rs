@@ -8,12 +8,14 @@ use serde::Serialize;
 use windfall_core::{Scene, Simulator, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, LensMoment, PictureTarget, RenderScene, Renderer, RendererOptions};
+use windfall_render::{
+    FrameInput, LensMoment, PictureTarget, Quality, RenderScene, Renderer, RendererOptions,
+};
 use windfall_wgpu::{Gpu, describe_adapter};
 
 use super::Arguments;
 use crate::leaves::atlas_of;
-use crate::run::backend::{Backend, BackendArguments};
+use crate::run::backend::Backend;
 use crate::run::drawing::Drawing;
 use crate::run::progress::making_leaves;
 use crate::run::terminal;
@@ -33,6 +35,7 @@ struct DrawRow {
     adapter: String,
     backend: &'static str,
     scene: String,
+    quality: &'static str,
     leaves: u32,
     width: u32,
     height: u32,
@@ -42,7 +45,8 @@ struct DrawRow {
     frames_per_s: f64,
     /// The step of the simulation in it.
     step_ms: f64,
-    /// Medians of what the device's timestamps say; empty where it has none.
+    /// Medians of what the device's timestamps say of other frames, in which parts of the scene have passes of their own; empty where
+    /// it has none.
     passes: Vec<PassRow>,
 }
 
@@ -54,9 +58,10 @@ struct PassRow {
 
 impl DrawRow {
     fn text(&self) -> String {
-        let Self { leaves, width, height, frames_per_s, frame_ms, step_ms, frames, backend, .. } = self;
+        let Self { leaves, width, height, frames_per_s, frame_ms, step_ms, frames, backend, quality, .. } =
+            self;
         let mut text = format!(
-            "{leaves} leaves, {width}x{height}: {frames_per_s:.1} frames/s, {frame_ms:.2} ms a frame, of which \
+            "{leaves} leaves, {width}x{height}, {quality}: {frames_per_s:.1} frames/s, {frame_ms:.2} ms a frame, of which \
              {step_ms:.2} ms a step on {backend} (medians of {frames})\n"
         );
         for PassRow { pass, ms } in &self.passes {
@@ -79,7 +84,7 @@ impl DrawRow {
 pub(super) fn run(scenes: &[Scene], arguments: &Arguments) -> anyhow::Result<()> {
     let size = arguments.size.unwrap_or(SIZE);
     for scene in scenes {
-        let row = measure(scene, &arguments.scene, &arguments.backend, size)?;
+        let row = measure(scene, arguments, size)?;
         if arguments.json {
             terminal::print(&format!("{}\n", serde_json::to_string(&row)?))?;
         } else {
@@ -89,19 +94,16 @@ pub(super) fn run(scenes: &[Scene], arguments: &Arguments) -> anyhow::Result<()>
     Ok(())
 }
 
-fn measure(
-    scene: &Scene,
-    name: &str,
-    backend: &BackendArguments,
-    size: (u32, u32),
-) -> anyhow::Result<DrawRow> {
-    let Drawing { device, gpu, .. } = Drawing::without_window(backend)?;
+fn measure(scene: &Scene, arguments: &Arguments, size: (u32, u32)) -> anyhow::Result<DrawRow> {
+    let Drawing { device, gpu, .. } = Drawing::without_window(&arguments.backend)?;
+    let quality = Quality::from(arguments.quality);
     let world = World::build(scene)?;
     let mut backend = device.simulator(&world)?;
     let scene_trees = SceneTrees::of(scene, world.compiled.forest());
     let atlas = atlas_of(scene, &making_leaves())?;
     let render_scene = RenderScene::of(scene, &world.compiled, &scene_trees, &atlas);
-    let (options, format) = (RendererOptions::for_scene(scene), PictureTarget::FORMAT);
+    let options = RendererOptions { quality, ..RendererOptions::for_scene(scene) };
+    let format = PictureTarget::FORMAT;
     let mut renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?;
     let target = PictureTarget::new(gpu.device(), size)?;
     gpu.check()?;
@@ -113,9 +115,13 @@ fn measure(
         (Vec::new(), Vec::new(), Vec::<(&'static str, Vec<f64>)>::new());
     let begun = Instant::now();
     while frames.len() < FRAMES.0 || frames.len() < FRAMES.1 && begun.elapsed().as_secs_f64() < LENGTH_S {
+        renderer.set_split_scene(false);
         let start = Instant::now();
         steps.push(frame(&gpu, &mut backend, &mut renderer, &target, camera)?);
         frames.push(1.0e3 * start.elapsed().as_secs_f64());
+        // Parts of the scene are timed in frames of their own: passes of each take longer than one of all.
+        renderer.set_split_scene(true);
+        frame(&gpu, &mut backend, &mut renderer, &target, camera)?;
         for (pass, ms) in renderer.timings() {
             match passes.iter_mut().find(|(name, _)| *name == pass) {
                 Some((_, all)) => all.push(ms.into()),
@@ -127,7 +133,8 @@ fn measure(
     Ok(DrawRow {
         adapter: describe_adapter(gpu.info()),
         backend: backend.info().backend,
-        scene: name.into(),
+        scene: arguments.scene.clone(),
+        quality: quality.name(),
         leaves: scene.leaf_count(),
         width: size.0,
         height: size.1,

@@ -31,6 +31,7 @@ use crate::run::backend::{BackendArguments, BackendKind, Device};
 use crate::run::memory::{check_memory, free_memory};
 use crate::run::parse::whole;
 use crate::run::parse::{option_error, picture_size};
+use crate::run::quality_arguments::QualityName;
 use crate::run::scene_arguments::OutsideArguments;
 use crate::run::terminal;
 
@@ -69,6 +70,9 @@ pub struct Arguments {
     /// Width and height of the pictures in pixels [default: 1920x1080].
     #[arg(long, value_name = "WxH", value_parser = picture_size, requires = "draw")]
     size: Option<(u32, u32)>,
+    /// Effort spent on the pictures.
+    #[arg(long, value_enum, default_value_t = QualityName::Full, requires = "draw")]
+    quality: QualityName,
     /// Measure, besides, as many particles as leaves by themselves, at least four: sparks that bounce off the ground of the scene, in
     /// its wind.
     #[arg(long, conflicts_with = "draw")]

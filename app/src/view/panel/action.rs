@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use egui::Pos2;
 use windfall_core::Scene;
+use windfall_render::Quality;
 
 use crate::run::backend::BackendKind;
 use crate::view::tools::overlays::Overlays;
@@ -43,6 +44,8 @@ pub(crate) enum Action {
     Drop(PathBuf),
     /// Simulate elsewhere.
     Backend(BackendKind),
+    /// Spend another effort on pictures.
+    Quality(Quality),
     /// Look from where the scene says.
     ResetCamera,
     /// Other instruments.

@@ -6,6 +6,7 @@ use egui::{Grid, Label, RichText, Ui};
 use windfall_core::Contract;
 use windfall_core::device::flight::regime::{REGIME_COUNT, REGIME_NAMES};
 use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
+use windfall_render::Quality;
 
 use super::{Action, PanelInput, compare, graph, style};
 use crate::run::backend::BackendKind;
@@ -58,6 +59,17 @@ pub(super) fn backend(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>
     });
     let drawn = RichText::new(format!("Draws: {}", input.adapter)).small().color(style::QUIET);
     ui.add(Label::new(drawn).truncate()).on_hover_text(&input.driver);
+    ui.horizontal(|ui| {
+        for (quality, tip) in [
+            (Quality::Plain, "Pictures to find one's way on any machine"),
+            (Quality::Draft, "Light for every four pixels, edges as fine as in full ones"),
+            (Quality::Full, "Everything is drawn"),
+        ] {
+            if ui.selectable_label(input.quality == quality, quality.name()).on_hover_text(tip).clicked() {
+                actions.push(Action::Quality(quality));
+            }
+        }
+    });
     compare::show(ui, input, actions);
 }
 

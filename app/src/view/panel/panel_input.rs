@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use windfall_core::{Clock, Scene, SimulatorInfo, Stats};
+use windfall_render::Quality;
 
 use crate::run::backend::BackendKind;
 use crate::view::session::{Difference, Timeline};
@@ -31,6 +32,8 @@ pub(crate) struct PanelInput {
     pub(crate) adapter: String,
     /// The same with its driver.
     pub(crate) driver: String,
+    /// Effort spent on pictures.
+    pub(crate) quality: Quality,
     pub(crate) clock: Clock,
     pub(crate) timeline: Timeline,
     pub(crate) stats: Stats,

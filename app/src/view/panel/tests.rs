@@ -9,6 +9,7 @@ use egui::{
 use glam::Vec3;
 use windfall_core::scene::{self, PRESETS};
 use windfall_core::{Contract, Scene, SimulatorInfo, World};
+use windfall_render::Quality;
 
 use super::*;
 use crate::run::backend::BackendKind;
@@ -37,6 +38,7 @@ fn input(scene: &Scene) -> PanelInput {
         backend: BackendKind::Cpu,
         adapter: "adapter".into(),
         driver: "adapter (driver)".into(),
+        quality: Quality::Full,
         clock: world.clock,
         timeline: Timeline { range: (0, 600), target: None, kept: vec![0, 300, 600] },
         stats: world.stats(),

@@ -62,6 +62,7 @@ impl Viewer {
                 viewer.say("Begun again at time zero.".into(), false);
                 Ok(())
             })?,
+            Action::Quality(quality) => self.try_it(|viewer| viewer.set_quality(quality))?,
             Action::Backend(kind) => {
                 let name = if kind == BackendKind::Cpu { "cpu" } else { "wgpu" };
                 self.try_it(|viewer| {
@@ -117,6 +118,7 @@ impl Viewer {
             backend: session.kind(),
             adapter: self.gpu.info().name.clone(),
             driver: describe_adapter(self.gpu.info()),
+            quality: self.quality,
             clock: simulator.clock(),
             timeline: session.timeline(),
             stats,

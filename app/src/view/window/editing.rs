@@ -8,7 +8,7 @@ use std::sync::Arc;
 use windfall_core::{CompiledScene, Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{RenderScene, Renderer, RendererOptions};
+use windfall_render::{Quality, RenderScene, Renderer, RendererOptions};
 use windfall_texgen::Atlas;
 use windfall_wgpu::Gpu;
 
@@ -140,6 +140,19 @@ impl Viewer {
         Ok(())
     }
 
+    /// Spends another effort on the pictures from now on.
+    pub(super) fn set_quality(&mut self, quality: Quality) -> anyhow::Result<()> {
+        let scene = Arc::clone(self.session.scene());
+        let atlas = pictures_at_once(&mut self.leaf_making, &scene)?;
+        let (format, size) = (self.screen.format(), self.renderer.size());
+        let compiled = self.session.compiled();
+        self.renderer = renderer_of(&self.gpu, compiled, &scene, &atlas, format, size, quality)?;
+        self.quality = quality;
+        self.set_overlays(self.instruments.overlays);
+        self.say(format!("Pictures are {} now.", quality.name()), false);
+        Ok(())
+    }
+
     /// The document as it is, to come back to.
     fn document(&self) -> Document {
         Document { scene: Arc::clone(self.session.scene()), loaded: Arc::clone(&self.loaded) }
@@ -167,7 +180,7 @@ impl Viewer {
         if change.picture {
             let (format, size) = (self.screen.format(), self.renderer.size());
             let atlas = pictures_at_once(&mut self.leaf_making, &scene)?;
-            self.renderer = renderer_of(&self.gpu, compiled, &scene, &atlas, format, size)?;
+            self.renderer = renderer_of(&self.gpu, compiled, &scene, &atlas, format, size, self.quality)?;
         } else if change.view {
             self.renderer.update_scene_view(&scene.view)?;
         } else if change.lens {
@@ -208,9 +221,10 @@ pub(super) fn renderer_of(
     atlas: &Atlas,
     format: wgpu::TextureFormat,
     size: (u32, u32),
+    quality: Quality,
 ) -> anyhow::Result<Renderer> {
     let scene_trees = SceneTrees::of(scene, compiled.forest());
     let render_scene = RenderScene::of(scene, compiled, &scene_trees, atlas);
-    let options = RendererOptions::for_scene(scene);
+    let options = RendererOptions { quality, ..RendererOptions::for_scene(scene) };
     Ok(Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?)
 }

@@ -15,6 +15,7 @@ use winit::window::{Window, WindowId};
 
 use windfall_core::scene::NamedFiles;
 use windfall_core::{Scene, World};
+use windfall_render::Quality;
 
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
@@ -41,6 +42,8 @@ pub(crate) struct Options {
     pub open: Vec<Group>,
     /// Backend that simulates.
     pub backend: BackendArguments,
+    /// Effort spent on pictures; drafts on software adapters if nobody says.
+    pub quality: Option<Quality>,
     /// Size of the window in pixels.
     pub size: Option<(u32, u32)>,
     /// Instruments that are shown from the beginning.

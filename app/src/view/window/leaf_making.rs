@@ -57,8 +57,15 @@ impl Viewer {
                 self.leaf_making = None;
                 let (format, size) = (self.screen.format(), self.renderer.size());
                 let scene = Arc::clone(self.session.scene());
-                self.renderer =
-                    renderer_of(&self.gpu, self.session.compiled(), &scene, &atlas, format, size)?;
+                self.renderer = renderer_of(
+                    &self.gpu,
+                    self.session.compiled(),
+                    &scene,
+                    &atlas,
+                    format,
+                    size,
+                    self.quality,
+                )?;
                 self.set_overlays(self.instruments.overlays);
                 self.has_news = true;
                 self.say("The leaves are made.".into(), false);

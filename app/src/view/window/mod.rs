@@ -23,7 +23,7 @@ use anyhow::Context;
 use windfall_core::scene::{NamedFiles, camera_at};
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
-use windfall_render::{FrameInput, LensMoment, PictureTarget, Renderer};
+use windfall_render::{FrameInput, LensMoment, PictureTarget, Quality, Renderer};
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
@@ -85,6 +85,7 @@ pub(crate) struct Viewer {
     /// Action that takes building anew, and the number of frames until then: a message announces it.
     building: Option<(Action, u8)>,
     renderer: Renderer,
+    quality: Quality,
     /// Leaves that are being made, while small ones are shown.
     leaf_making: Option<LeafMaking>,
     camera: Camera,
@@ -122,7 +123,7 @@ impl Viewer {
     ) -> anyhow::Result<Self> {
         let scene = &options.scene;
         let surface = Screen::surface(&instance, &window)?;
-        let Drawing { device, gpu, adapter, reason } =
+        let Drawing { device, gpu, adapter, reason, .. } =
             Drawing::choose(&options.backend, &instance, Some(&surface))?;
         let screen = Screen::new(Arc::clone(&window), surface, &adapter, &gpu)?;
         let session = Session::new(scene.clone(), world, &device, gpu.clone())?;
@@ -133,12 +134,22 @@ impl Viewer {
         } else {
             pictures_at_once(&mut leaf_making, session.scene())?
         };
-        let renderer = renderer_of(&gpu, &world.compiled, scene, &atlas, screen.format(), screen.size())?;
+        let is_software = gpu.info().device_type == wgpu::DeviceType::Cpu;
+        let usual = if is_software { Quality::Draft } else { Quality::Full };
+        let quality = options.quality.unwrap_or(usual);
+        let (format, size) = (screen.format(), screen.size());
+        let renderer = renderer_of(&gpu, &world.compiled, scene, &atlas, format, size, quality)?;
         let gui = Gui::new(&window, &gpu, screen.format());
         gpu.check()?;
         if let Some(reason) = reason {
             terminal::note(&reason);
         }
+        let told = is_software && options.quality.is_none();
+        let message = told.then(|| {
+            let text =
+                format!("Pictures are drafts: {} is no hardware. Simulation has full ones.", gpu.info().name);
+            (Message { text, is_error: false }, Instant::now())
+        });
         if let Some(screenshot) = &mut screenshot {
             screenshot.begin();
         }
@@ -158,9 +169,10 @@ impl Viewer {
             building: None,
             session,
             renderer,
+            quality,
             leaf_making,
             meter: Meter::new(),
-            message: None,
+            message,
             screenshot,
             recording: None,
             cancel: Cancel::default(),

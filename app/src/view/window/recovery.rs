@@ -33,7 +33,7 @@ impl Viewer {
         self.session.recover(gpu.clone())?;
         let (compiled, scene) = (self.session.compiled(), self.session.scene());
         let atlas = pictures_at_once(&mut self.leaf_making, scene)?;
-        self.renderer = renderer_of(&gpu, compiled, scene, &atlas, self.screen.format(), size)?;
+        self.renderer = renderer_of(&gpu, compiled, scene, &atlas, self.screen.format(), size, self.quality)?;
         self.gui.reopen(&self.window, &gpu, self.screen.format());
         self.instruments.reopen(gpu.device());
         self.gpu = gpu;
