@@ -33,6 +33,6 @@ pub(crate) fn shaders() -> Shaders {
         + &LandUniform::declaration()
         + &fire_light::FireLight::declaration();
     shaders.extend([("frame/structs", declarations(lists) + &structs)]);
-    shaders.extend(wgsl_files!("frame": "common", "fire_light", "light"));
+    shaders.extend(wgsl_files!("frame": "common", "coverage", "fire_light", "light"));
     shaders
 }

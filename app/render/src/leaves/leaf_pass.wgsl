@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves, lit by the sun in front of them and through them.
 
+#import frame/coverage
 #import frame/fire_light
 #import frame/light
 #import leaves/front
@@ -105,16 +106,6 @@ struct Painted {
     @builtin(sample_mask) mask: u32,
 }
 
-// Mask of a pixel's four samples that a leaf covers: as many as its share says on average over leaves, others for every leaf,
-// so that leaves behind one another hide what is behind them all.
-fn covered(share: f32, leaf: u32) -> u32 {
-    let random = hash_u32(leaf);
-    let count = u32(share * 4.0 + unit_from(random));
-    let first = random & 3u;
-    let bits = ((1u << min(count, 4u)) - 1u) << first;
-    return (bits | (bits >> 4u)) & 15u;
-}
-
 // State of a leaf at a point that its front nears or has passed.
 fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
     let front = Front(in.front.x, in.front.y, in.front.z, in.front.w);
@@ -141,7 +132,7 @@ fn fragment(in: Varyings) -> Painted {
         tissue = burnt_tissue(in, surface.a, max(fwidth(surface.a), exp2(-levels_left)));
         alpha *= tissue.left;
     }
-    let mask = covered(alpha, bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y));
+    let mask = covered(alpha, hash_u32(bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y)));
     if mask == 0u {
         discard;
     }

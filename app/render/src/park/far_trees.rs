@@ -110,7 +110,7 @@ impl TreePass {
             buffers: &[TreeInstance::layout(wgpu::VertexStepMode::Instance)],
             blend: None,
             depth_write: true,
-            alpha_to_coverage: true,
+            alpha_to_coverage: false,
         }
         .build(device);
         Self { pipeline }

@@ -3,6 +3,7 @@
 // Trees as upright pictures that turn to the camera, lit anew by the sun of the scene.
 
 #import frame/fire_light
+#import frame/coverage
 #import frame/light
 #import park/structs
 
@@ -13,11 +14,18 @@ struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) uv: vec2<f32>,
-    @location(2) @interpolate(flat) sprite: u32,
-    @location(3) @interpolate(flat) look: vec3<f32>,
+    // Layers of the two sides that are nearest to the one that is seen; -1 or 1 as their pictures are mirrored.
+    @location(2) @interpolate(flat) layers: vec2<u32>,
+    @location(3) @interpolate(flat) mirrors: vec2<f32>,
+    // Share of the second side.
+    @location(4) @interpolate(flat) second: f32,
+    @location(5) @interpolate(flat) look: vec2<f32>,
     // Effect of the air on its light, which changes little over a tree.
-    @location(4) air: vec4<f32>,
+    @location(6) air: vec4<f32>,
 }
+
+// Half of the turn in quarters over which one side fades into the next.
+const FADE: f32 = 0.12;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, tree: TreeInstance) -> Varyings {
@@ -27,13 +35,20 @@ fn vertex(@builtin(vertex_index) index: u32, tree: TreeInstance) -> Varyings {
     let toward = frame.eye_m.xz - foot.xz;
     let side = normalize(vec2(toward.y, -toward.x) + vec2(1.0e-5, 0.0));
     let across = (corner.x - 0.5) * height * abs(tree.width);
+    let up = mix(tree.cut, 1.0, corner.y);
     var out: Varyings;
-    out.world = foot + vec3(side.x * across, corner.y * height - 0.15, side.y * across);
+    out.world = foot + vec3(side.x * across, (up - tree.cut) * height - 0.15, side.y * across);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     out.air = air_before(out.world);
-    out.uv = vec2(select(1.0 - corner.x, corner.x, tree.width > 0.0), 1.0 - corner.y);
-    out.sprite = tree.sprite;
-    out.look = vec3(tree.hue, tree.brightness, sign(tree.width));
+    out.uv = vec2(corner.x, 1.0 - up);
+    // Quarters of a turn from the side that was painted first to the one that is seen.
+    let quarters = fract((tree.turn_rad - atan2(toward.y, toward.x)) * 0.15915494) * 4.0;
+    let first = floor(quarters);
+    let sides = vec2<u32>(u32(first), u32(first) + 1u) % 4u;
+    out.layers = 2u * (tree.kind * SIDES + sides % SIDES);
+    out.mirrors = sign(tree.width) * select(vec2(1.0), vec2(-1.0), sides >= vec2(SIDES));
+    out.second = smoothstep(0.5 - FADE, 0.5 + FADE, quarters - first);
+    out.look = vec2(tree.hue, tree.brightness);
     return out;
 }
 
@@ -51,18 +66,37 @@ fn snow_on_tree(normal: vec3<f32>, grain: f32) -> f32 {
     return deep * smoothstep(0.75, 1.0, normal.y + 0.5 * grain + 0.45 * deep);
 }
 
+struct Painted {
+    @location(0) color: vec4<f32>,
+    @builtin(sample_mask) mask: u32,
+}
+
 @fragment
-fn fragment(in: Varyings) -> @location(0) vec4<f32> {
-    let surface = textureSample(sprites, sprite_sampler, in.uv, in.sprite * 2u);
-    let relief = textureSample(sprites, sprite_sampler, in.uv, in.sprite * 2u + 1u);
-    let spread = fwidth(surface.a);
-    let alpha = clamp((surface.a - 0.42) / max(spread, 0.05) + 0.5, 0.0, 1.0);
-    if alpha <= 0.0 {
+fn fragment(in: Varyings) -> Painted {
+    // Texels of a pixel, and the finest square of texels that is no finer than a pixel: random numbers belong to those, and stay
+    // with them as the view moves.
+    let size = vec2<f32>(textureDimensions(sprites));
+    let across = dpdx(in.uv);
+    let down = dpdy(in.uv);
+    let span = max(length(across * size), length(down * size));
+    let square = vec2<u32>(floor(in.uv * size / exp2(max(floor(log2(span)), 0.0))));
+    let random = hash_u32(square.x + hash_u32(square.y + hash_u32(in.layers.x)));
+    let takes_second = unit_from(hash_u32(random)) < in.second;
+    let layer = select(in.layers.x, in.layers.y, takes_second);
+    let mirror = select(in.mirrors.x, in.mirrors.y, takes_second);
+    let uv = vec2(select(1.0 - in.uv.x, in.uv.x, mirror > 0.0), in.uv.y);
+    let way = vec2(mirror, 1.0);
+    let surface = textureSampleGrad(sprites, sprite_sampler, uv, layer, way * across, way * down);
+    let relief = textureSampleGrad(sprites, sprite_sampler, uv, layer + 1u, way * across, way * down);
+    // Close by, leaves have a sharp rim; from afar a texel says which share of a pixel they cover.
+    let rim = mix(0.3, 1.0, smoothstep(0.4, 1.0, span));
+    let mask = covered(clamp((surface.a - 0.5) / rim + 0.5, 0.0, 1.0), random);
+    if mask == 0u {
         discard;
     }
     let to_eye = normalize(frame.eye_m - in.world);
     let side = normalize(vec3(to_eye.z, 0.0, -to_eye.x));
-    let tilt = vec2((relief.r * 2.0 - 1.0) * in.look.z, relief.g * 2.0 - 1.0);
+    let tilt = vec2((relief.r * 2.0 - 1.0) * mirror, relief.g * 2.0 - 1.0);
     let front = sqrt(max(1.0 - dot(tilt, tilt), 0.05));
     let level = normalize(vec3(to_eye.x, 0.0, to_eye.z));
     let normal = normalize(side * tilt.x + vec3(0.0, tilt.y, 0.0) + level * front);
@@ -81,7 +115,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let through = saturated * (1.0 - surface.b) * (1.0 - snow) * against * open * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color * hill_light(in.world) * (albedo * lit + through);
     color += albedo * (ambient_light(normal) * (0.25 + 0.75 * open) + fire_light(in.world, normal));
-    return vec4(color * in.air.a + in.air.rgb, alpha);
+    return Painted(vec4(color * in.air.a + in.air.rgb, 1.0), mask);
 }
 
 // Shadows of the trees, and under them the litter and the sky that crowns hide, seen from above; drawn once per sun.
@@ -107,10 +141,10 @@ fn vertex_shade(@builtin(vertex_index) index: u32, tree: TreeInstance) -> ShadeV
         // A low sun would lay shadows over the whole park.
         let reach = min(frame.sun_zenith_tan, 4.0);
         at += side * ((corner.x - 0.5) * height * abs(tree.width)) + away * (corner.y * height * reach);
-        out.sprite = tree.sprite;
+        out.sprite = tree.kind * SIDES;
     } else {
         at += (corner - 0.5) * height * 1.15;
-        out.sprite = 1000u + tree.sprite;
+        out.sprite = 1000u + tree.kind * SIDES;
     }
     out.uv = vec2(corner.x, 1.0 - corner.y);
     out.strewn = min(tree.brightness, 1.0);

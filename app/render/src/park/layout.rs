@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use windfall_core::Scene;
 use windfall_core::scene::{Source, SourceShape};
 
-use super::tree_sprite::SPRITE_COUNT;
+use super::tree_sprite::TREE_COUNT;
 use crate::frame::surroundings::{PATH_BEND_M, PATH_BEND_RAD_M};
 use crate::gpu::vertex::vertex_struct;
 use crate::land::Land;
@@ -21,8 +21,12 @@ vertex_struct! {
         pub(crate) height_m: f32 = Float32,
         /// Width relative to height; negative mirrors the sprite.
         pub(crate) width: f32 = Float32,
-        /// Number of the sprite.
-        pub(crate) sprite: u32 = Uint32,
+        /// Number of the painted tree.
+        pub(crate) kind: u32 = Uint32,
+        /// Turn about its foot in radians.
+        pub(crate) turn_rad: f32 = Float32,
+        /// Share of its picture, from the ground, that it stands without: others' trunks are shorter.
+        pub(crate) cut: f32 = Float32,
         /// Place in the palette from green (0) to russet (1).
         pub(crate) hue: f32 = Float32,
         /// Brightness of the foliage; 0 for a tree that strews no litter.
@@ -42,6 +46,10 @@ const STAGE_RAD: f32 = 0.8;
 const FAR_M: f32 = 60.0;
 /// The last part of the autumn, in which far woods lose their leaves.
 const LATE: f32 = 0.4;
+/// Largest share of a tree's picture that is cut off its foot.
+const MOST_CUT: f32 = 0.16;
+/// Least square of a tree's height among those of its height when it is old.
+const YOUNGEST: f32 = 0.3;
 /// Phases the path's bends may have, in radians; the first that keeps clear of the sources' trees is taken.
 const PATH_PHASES: [f32; 6] = [-0.9, 2.2, 0.3, -2.0, 1.2, 3.4];
 
@@ -67,7 +75,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
     let standing: Vec<Vec3> = own.chain(trees.iter().map(|tree| tree.foot_m)).collect();
     // Far woods turn with the scene's own trees.
     let season = if has_trees { (2.0 * scene.autumn).min(1.0) } else { 1.0 };
-    let mut random = Random::new(43);
+    let (mut random, mut shapes) = (Random::new(43), Random::new(44));
     let eye = scene.view.camera.eye_m;
     let on_ground = |point: Vec3| Vec2::new(point.x - center.x, point.z - center.z);
     let is_clear =
@@ -82,6 +90,10 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
         (54.0, 95.0, 70, 0.0, 1.0),
         (95.0, 150.0, 110, 0.0, 1.0),
         (70.0, 150.0, 110, 0.0, 0.25),
+        // Understorey, and woods up to the horizon.
+        (75.0, 150.0, 120, 0.0, 0.4),
+        (150.0, 420.0, 520, 0.0, 1.15),
+        (420.0, 1300.0, 900, 0.0, 1.25),
     ];
     for (inner, outer, count, open_rad, scale) in rings {
         if has_trees && inner < OWN_M {
@@ -100,7 +112,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
             let apart = toward.dot(view).clamp(-1.0, 1.0).acos();
             let foot = center + Vec3::new(toward.x, 0.0, toward.y) * radius;
             let clear = beyond_path(toward * radius, view, path_phase) > if bush { 2.5 } else { 1.2 };
-            let spacing = if bush { 2.0 } else { 3.5 + 0.07 * radius };
+            let spacing = if bush { 2.0 } else { 3.5 + (0.07 * radius).min(8.0) };
             if !clear
                 || land.is_wet(foot.x, foot.z)
                 || hides(eye, view, foot)
@@ -111,19 +123,32 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
                 continue;
             }
             left -= 1;
-            let height_m = random.range(11.0, 19.0) * scale;
-            let bushes = SPRITE_COUNT / 4;
-            let sprite = if bush {
-                SPRITE_COUNT - bushes + random.word() % bushes
+            let height_m = random.range(12.0, 22.0) * scale;
+            let bushes = TREE_COUNT / 4;
+            let kind = if bush {
+                TREE_COUNT - bushes + random.word() % bushes
             } else {
-                random.word() % (SPRITE_COUNT - bushes)
+                random.word() % (TREE_COUNT - bushes)
             };
             let mirror = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
             let width = random.range(0.85, 1.1) * mirror;
             let hue = (0.1 + 0.85 * random.unit()) * season;
             let brightness = random.range(0.8, 1.15);
             let foot_m = Vec3 { y: land.ground_m(foot.x, foot.z), ..foot };
-            trees.push(TreeInstance { foot_m, height_m, width, sprite, hue, brightness });
+            let turn_rad = shapes.range(0.0, std::f32::consts::TAU);
+            // In woods trees stand close, and their trunks are long; at the edge they have branches down to the ground.
+            let cut = if bush { 0.0 } else { MOST_CUT * shapes.unit() };
+            let age = shapes.range(YOUNGEST, 1.0).sqrt();
+            trees.push(TreeInstance {
+                foot_m,
+                height_m: height_m * age,
+                width,
+                kind,
+                turn_rad,
+                cut,
+                hue,
+                brightness,
+            });
         }
     }
     // Late in the year the far woods, too, are bare.
@@ -156,7 +181,9 @@ fn crown_tree(scene: &Scene, land: &Land, source: &Source, random: &mut Random) 
         height_m,
         // Painted crowns are about 0.65 of their picture wide.
         width: (2.0 * radius_m / 0.65 / height_m).clamp(0.6, 1.5),
-        sprite: random.word() % (SPRITE_COUNT - SPRITE_COUNT / 4),
+        kind: random.word() % (TREE_COUNT - TREE_COUNT / 4),
+        turn_rad: random.range(0.0, std::f32::consts::TAU),
+        cut: 0.0,
         hue: (0.5 * (first + last)).clamp(0.0, 1.0) * 0.9,
         brightness: random.range(0.9, 1.1),
     })

@@ -4,17 +4,21 @@
 
 pub(crate) mod far_trees;
 pub(crate) mod layout;
+mod leaf_grid;
 pub(crate) mod litter;
 pub(crate) mod park_trees;
 mod tree_canvas;
 mod tree_sprite;
 
-use crate::gpu::shaders::{Shaders, wgsl_files};
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
-    shaders.extend([("park/structs", layout::TreeInstance::declaration())]);
+    shaders.extend([(
+        "park/structs",
+        declarations([tree_sprite::wgsl_constants()]) + &layout::TreeInstance::declaration(),
+    )]);
     shaders.extend(wgsl_files!("park": "far_trees"));
     shaders
 }

@@ -9,8 +9,6 @@ pub(crate) const SPRITE_SIZE: usize = 512;
 pub(crate) const EDGE: f32 = 512.0;
 /// Least half width of a dab in texels: what is thinner is fainter.
 pub(crate) const LEAST_TEXELS: f32 = 0.6;
-/// Coverage from which `tree.wgsl` draws.
-pub(crate) const DRAWN: f32 = 0.42;
 
 /// One tree: two images of `SPRITE_SIZE` squared, with their halvings.
 pub(crate) struct TreeSprite {
@@ -80,14 +78,12 @@ fn blend(texel: &mut [f32; 7], dab: &Dab, cover: f32) {
 fn mips(mut canvas: Vec<[f32; 7]>) -> TreeSprite {
     let mut sprite = TreeSprite { surface: Vec::new(), relief: Vec::new() };
     let mut size = SPRITE_SIZE;
-    let drawn = drawn_share(&canvas, 1.0);
     loop {
-        let thicker = thickening(&canvas, drawn);
         let (mut surface, mut relief) =
             (Vec::with_capacity(4 * canvas.len()), Vec::with_capacity(4 * canvas.len()));
         for texel in &canvas {
             let scale = 255.0 / texel[6].max(1.0e-4);
-            let cover = (thicker * texel[6] * 255.0).round();
+            let cover = (texel[6] * 255.0).round();
             surface.extend([texel[0] * scale, texel[1] * scale, texel[2] * scale, cover].map(byte));
             let bare = if texel[6] < 1.0e-3 { 127.0 } else { 0.0 };
             relief.extend(
@@ -112,23 +108,6 @@ fn mips(mut canvas: Vec<[f32; 7]>) -> TreeSprite {
         canvas = smaller;
         size = half;
     }
-}
-
-/// Share of texels that are drawn if all cover so many times as much.
-fn drawn_share(canvas: &[[f32; 7]], thicker: f32) -> f32 {
-    let drawn = canvas.iter().filter(|texel| thicker * texel[6] > DRAWN).count();
-    drawn as f32 / canvas.len() as f32
-}
-
-/// Factor on the coverage of a halving's texels with which as large a share of them is drawn as of the whole: neither
-/// twigs nor gaps vanish with distance.
-fn thickening(canvas: &[[f32; 7]], drawn: f32) -> f32 {
-    let (mut low, mut high) = (0.5, 4.0);
-    for _ in 0..12 {
-        let middle = 0.5 * (low + high);
-        if drawn_share(canvas, middle) < drawn { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
 
 #[expect(

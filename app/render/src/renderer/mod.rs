@@ -184,7 +184,7 @@ impl Renderer {
             (objects, pass)
         });
         let eye_m = camera.eye_m();
-        let shedding = shedding(&planted, scene_trees);
+        let shedding = shedding(&planted, center, scene_trees);
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
