@@ -91,7 +91,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
         (95.0, 150.0, 110, 0.0, 1.0),
         (70.0, 150.0, 110, 0.0, 0.25),
         // Understorey, and woods up to the horizon.
-        (75.0, 150.0, 120, 0.0, 0.4),
+        (75.0, 150.0, 120, 0.0, 0.28),
         (150.0, 420.0, 520, 0.0, 1.15),
         (420.0, 1300.0, 900, 0.0, 1.25),
     ];

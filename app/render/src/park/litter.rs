@@ -8,9 +8,8 @@ use std::f32::consts::{PI, TAU};
 use glam::{Quat, Vec2, Vec3};
 use windfall_core::Scene;
 use windfall_core::device::leaf::record::{SPECIES_SHIFT, STATE_RESTING};
-use windfall_wgpu::LeafColumns;
 
-use crate::gpu::upload;
+use super::still_leaves::StillLeaves;
 use crate::land::Land;
 use crate::random::Random;
 
@@ -23,52 +22,26 @@ const FRINGE_AREA_INDEX: f32 = 0.8;
 /// Distance in metres from a bed over which the leaves around it thin out to a third: less where they would be more than the most.
 const FRINGE_M: f32 = 9.0;
 
-/// Leaves that fell before the scene began.
-#[derive(Debug)]
-pub(crate) struct Litter {
-    place: wgpu::Buffer,
-    attitude: wgpu::Buffer,
-    schedule: wgpu::Buffer,
-    identity: wgpu::Buffer,
+/// Leaves that fell before the scene began; `None` for no leaves.
+pub(crate) fn strew(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
     count: u32,
-}
-
-impl Litter {
-    /// `None` for no leaves.
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        count: u32,
-        scene: &Scene,
-        land: &Land,
-        center: Vec3,
-        trees: &[Shedding],
-    ) -> Option<Self> {
-        let columns = scatter(count.min(MAX_LITTER), scene, land, center, trees);
-        let count = u32::try_from(columns.place.len()).unwrap_or(MAX_LITTER);
-        let column =
-            |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::STORAGE, bytes);
-        (count > 0).then(|| Self {
-            place: column(bytemuck::cast_slice(&columns.place)),
-            attitude: column(bytemuck::cast_slice(&columns.attitude)),
-            schedule: column(bytemuck::cast_slice(&columns.schedule)),
-            identity: column(bytemuck::cast_slice(&columns.identity)),
-            count,
-        })
-    }
-
-    /// The litter as leaf columns.
-    pub(crate) fn columns(&self) -> LeafColumns<'_> {
-        LeafColumns {
-            place: &self.place,
-            // Drawing reads no drift, so any column will do.
-            drift: &self.place,
-            attitude: &self.attitude,
-            schedule: &self.schedule,
-            identity: &self.identity,
-            leaf_count: self.count,
-        }
-    }
+    scene: &Scene,
+    land: &Land,
+    center: Vec3,
+    trees: &[Shedding],
+) -> Option<StillLeaves> {
+    let LitterColumns { place, attitude, schedule, identity } =
+        scatter(count.min(MAX_LITTER), scene, land, center, trees);
+    let count = u32::try_from(place.len()).unwrap_or(MAX_LITTER);
+    let columns = [
+        bytemuck::cast_slice(&place),
+        bytemuck::cast_slice(&attitude),
+        bytemuck::cast_slice(&schedule),
+        bytemuck::cast_slice(&identity),
+    ];
+    (count > 0).then(|| StillLeaves::new(device, queue, columns, count))
 }
 
 /// Leaf columns of the litter, laid out like a simulator's (see `LeafColumns`).

@@ -6,7 +6,9 @@ pub(crate) mod far_trees;
 pub(crate) mod layout;
 mod leaf_grid;
 pub(crate) mod litter;
+pub(crate) mod near_trees;
 pub(crate) mod park_trees;
+pub(crate) mod still_leaves;
 mod tree_canvas;
 mod tree_sprite;
 

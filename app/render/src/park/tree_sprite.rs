@@ -34,6 +34,12 @@ const TREES: [(TreePreset, u32); TREE_COUNT as usize] = [
     (TreePreset::Bush, 17),
     (TreePreset::Bush, 18),
 ];
+
+/// The kind of a painted tree by its number.
+pub(crate) fn kind_of(number: u32) -> TreePreset {
+    TREES[number as usize % TREES.len()].0
+}
+
 /// Places of clusters of leaves on a tree, and leaves of each.
 const CLUSTERS: u32 = 4500;
 const LEAVES: u32 = 13;

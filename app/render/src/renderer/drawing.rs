@@ -22,6 +22,7 @@ use crate::particles::blobs::BlobPass;
 use crate::particles::particle_pass::ParticlePass;
 use crate::scenery::grass_pass::GRASS_RAD_S;
 use crate::shadows::Casters;
+use crate::trees::bark_mesh::BarkBuffers;
 
 impl Renderer {
     /// Encodes one frame of `world` into `output`, a view of a texture of this renderer's format. What lies outside of the
@@ -149,10 +150,9 @@ impl Renderer {
         let casters = Casters {
             species_table: &self.species_table,
             visible: &visible,
-            bark: &self.bark,
             has_twigs: self.quality.has_twig_shadows(),
             sides: frame.shadows.map(Sides::of),
-            branches: &group,
+            woods: &self.woods(&group),
             objects: self.objects.as_ref().map(|(objects, _)| objects),
             others: &|pass, map| {
                 if let Some(blobs) = self.blobs() {
@@ -205,7 +205,9 @@ impl Renderer {
         let mut pass = begin_scene(encoder, targets, None, PassEnds::WHOLE);
         pass.set_bind_group(0, &water.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.bark_pass.draw_mirrored(&mut pass, (&self.bark, branches), &sides);
+        for wood in self.woods(branches) {
+            self.bark_pass.draw_mirrored(&mut pass, wood, &sides);
+        }
         for part in [ScenePart::Objects, ScenePart::Leaves] {
             self.draw_part(&mut pass, part, PartInput { leaf_count: 0, branches, sides: &sides });
         }
@@ -230,7 +232,14 @@ impl Renderer {
     /// Leaves that are drawn: nothing has a mark that is not simulated.
     fn visible(&self) -> Vec<&VisibleLeaves> {
         let litter = (!self.cull.is_painted).then_some(&self.visible_litter);
-        std::iter::once(&self.visible_leaves).chain(litter).collect()
+        let near = self.near_trees.as_ref().filter(|_| !self.cull.is_painted).map(|near| &near.visible);
+        std::iter::once(&self.visible_leaves).chain(litter).chain(near).collect()
+    }
+
+    /// Bark with the branches that it is moved with: of the scene's own trees, and of the park's nearest.
+    fn woods<'a>(&'a self, branches: &'a wgpu::BindGroup) -> Vec<(&'a BarkBuffers, &'a wgpu::BindGroup)> {
+        let near = self.near_trees.as_ref().map(|near| (&near.bark, &near.branches));
+        std::iter::once((&self.bark, branches)).chain(near).collect()
     }
 
     /// Writes the views of a frame for the culling.
@@ -273,6 +282,9 @@ impl Renderer {
                 view,
             );
         }
+        if let Some(near) = self.near_trees.as_ref().filter(|_| !cull.is_painted) {
+            near.visible.cull(device, encoder, cull, (&near.leaves.columns(), None, &near.records), view);
+        }
     }
 
     /// Draws the scene, in one pass or, to time its parts, in a pass of each.
@@ -301,7 +313,9 @@ impl Renderer {
         match part {
             ScenePart::Bark => {
                 let has_twigs = self.quality.has_fine_parts();
-                self.bark_pass.draw(pass, (&self.bark, branches), sides, has_twigs);
+                for wood in self.woods(branches) {
+                    self.bark_pass.draw(pass, wood, sides, has_twigs);
+                }
             }
             ScenePart::Objects => {
                 if let Some((objects, object_pass)) = &self.objects {

@@ -39,8 +39,10 @@ use crate::objects::object_pass::ObjectPass;
 use crate::objects::records::ObjectBuffers;
 use crate::park::far_trees::{ShadePass, TreePass, Trees};
 use crate::park::layout::{Park, plant};
-use crate::park::litter::Litter;
+use crate::park::litter::strew;
+use crate::park::near_trees::{NearTrees, part};
 use crate::park::park_trees::{own_trees, shedding};
+use crate::park::still_leaves::StillLeaves;
 use crate::particles::flames::light_count;
 use crate::particles::particle_pass::ParticlePass;
 use crate::quality::Quality;
@@ -76,7 +78,8 @@ pub struct Renderer {
     light: LightGroup,
     species_table: SpeciesTable,
     trees: Trees,
-    litter: Option<Litter>,
+    litter: Option<StillLeaves>,
+    near_trees: Option<NearTrees>,
     visible_litter: VisibleLeaves,
     visible_leaves: VisibleLeaves,
     tree_records: TreeRecords,
@@ -144,6 +147,9 @@ impl Renderer {
         let Vec3 { x, z, .. } = camera.target_m;
         let center = Vec3::new(x, land.ground_m(x, z), z);
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
+        let eye_m = camera.eye_m();
+        let shedding = shedding(&planted, center, scene_trees);
+        let (near, planted) = part(scene, planted, eye_m, level);
 
         let targets = Targets::new(
             device,
@@ -153,14 +159,14 @@ impl Renderer {
         )?;
         let objects = ObjectBuffers::new(device, queue, solids);
         let standing = Standing {
-            trees: !scene_trees.trees.is_empty(),
+            trees: !scene_trees.trees.is_empty() || !near.is_empty(),
             objects: objects.is_some(),
             fire_lights: light_count(scene),
             snow: snow.is_some(),
         };
         let frame = FrameGroup::new(device, queue, &land, standing, options.quality);
         let species_table = SpeciesTable::new(device, queue, scene, atlas, burns)?;
-        let own = own_trees(scene_trees, scene.autumn > 0.0);
+        let own = [near.clone(), own_trees(scene_trees, scene.autumn > 0.0)].concat();
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, scene_trees);
         let cull = CullPass::new(device, &species_table, false);
@@ -183,15 +189,17 @@ impl Renderer {
             let pass = ObjectPass::new(device, &frame, &light, &objects);
             (objects, pass)
         });
-        let eye_m = camera.eye_m();
-        let shedding = shedding(&planted, center, scene_trees);
+        let near_trees = (!near.is_empty())
+            .then(|| NearTrees::new(device, queue, &cull, scene, &near, (eye_m, options.quality)))
+            .flatten();
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
             surroundings,
             leaf_count: scene.leaf_count(),
             dt_s: scene.dt_s,
-            litter: Litter::new(device, queue, options.litter_count, scene, &land, center, &shedding),
+            litter: strew(device, queue, options.litter_count, scene, &land, center, &shedding),
+            near_trees,
             visible_litter: VisibleLeaves::new(
                 device,
                 queue,

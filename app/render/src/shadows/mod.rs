@@ -56,12 +56,12 @@ struct MapPass {
 pub(crate) struct Casters<'a> {
     pub(crate) species_table: &'a SpeciesTable,
     pub(crate) visible: &'a [&'a VisibleLeaves],
-    pub(crate) bark: &'a BarkBuffers,
+    /// Bark, each moved with branches.
+    pub(crate) woods: &'a [(&'a BarkBuffers, &'a wgpu::BindGroup)],
     /// True if twigs cast shadows into the nearest map; in others they are far thinner than a texel.
     pub(crate) has_twigs: bool,
     /// Sides of the maps.
     pub(crate) sides: [Sides; MAPS],
-    pub(crate) branches: &'a wgpu::BindGroup,
     pub(crate) objects: Option<&'a ObjectBuffers>,
     /// Drawing of what else casts a shadow into the map of a number; bind group 0 is set.
     pub(crate) others: &'a dyn Fn(&mut wgpu::RenderPass<'_>, usize),
@@ -263,10 +263,10 @@ impl MapPass {
             multiview_mask: None,
         });
         pass.set_bind_group(0, &frame.group, &[]);
-        if !casters.bark.trees.is_empty() {
+        for (bark, branches) in casters.woods.iter().filter(|(bark, _)| !bark.trees.is_empty()) {
             pass.set_pipeline(&self.bark);
-            casters.bark.bind(&mut pass, casters.branches);
-            for indices in casters.bark.seen(casters.sides[number], casters.has_twigs && number == 0) {
+            bark.bind(&mut pass, branches);
+            for indices in bark.seen(casters.sides[number], casters.has_twigs && number == 0) {
                 pass.draw_indexed(indices, 0, 0..1);
             }
         }

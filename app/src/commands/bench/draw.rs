@@ -119,6 +119,8 @@ fn measure(scene: &Scene, arguments: &Arguments, size: (u32, u32)) -> anyhow::Re
         let start = Instant::now();
         steps.push(frame(&gpu, &mut backend, &mut renderer, &target, camera)?);
         frames.push(1.0e3 * start.elapsed().as_secs_f64());
+        // Takes what this frame's timestamps say off the way of the next one's.
+        renderer.timings();
         // Parts of the scene are timed in frames of their own: passes of each take longer than one of all.
         renderer.set_split_scene(true);
         frame(&gpu, &mut backend, &mut renderer, &target, camera)?;

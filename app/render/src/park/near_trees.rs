@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trees of the park that stand too near to be painted: grown like those of a scene, and drawn by the same passes. They stand still.
+
+use glam::{Vec2, Vec3};
+use windfall_core::scene::{Ground, Tree, TreePreset};
+use windfall_core::{Scene, World};
+
+use super::layout::TreeInstance;
+use super::still_leaves::StillLeaves;
+use super::tree_sprite::kind_of;
+use crate::leaves::cull::CullPass;
+use crate::leaves::visible::VisibleLeaves;
+use crate::quality::Quality;
+use crate::trees::SceneTrees;
+use crate::trees::bark_mesh::BarkBuffers;
+use crate::trees::branch_group::BranchGroup;
+use crate::trees::records::TreeRecords;
+
+/// Distance from the eye up to which trees are grown, in metres, and most of them.
+const REACH_M: f32 = 55.0;
+const MOST: usize = 10;
+/// Leaves of a tree, each for several.
+const LEAVES: u32 = 2400;
+/// How far their autumn has come.
+const AUTUMN: f32 = 0.5;
+/// Different trees of a kind: others are the same ones turned.
+const INDIVIDUALS: u32 = 3;
+
+/// Least cosine of the angle between the view and a tree that is grown: far aside it is hardly looked at.
+const IN_VIEW: f32 = 0.3;
+/// Kinds that stand for those whose leaves no species of the scene has.
+const COMMON: [TreePreset; 3] = [TreePreset::Maple, TreePreset::Birch, TreePreset::Oak];
+
+/// Parts the trees of a park into those that are grown, nearest first, and those that are painted: what a camera at `eye_m` that looks along
+/// `view`, a unit vector in the ground plane, has before it. All are painted where no species of the scene is that of a tree.
+pub(crate) fn part(
+    scene: &Scene,
+    trees: Vec<TreeInstance>,
+    eye_m: Vec3,
+    view: Vec2,
+) -> (Vec<TreeInstance>, Vec<TreeInstance>) {
+    let offset = |tree: &TreeInstance| Vec2::new(tree.foot_m.x - eye_m.x, tree.foot_m.z - eye_m.z);
+    let is_near = |tree: &TreeInstance| {
+        let distance_m = offset(tree).length();
+        let is_ahead = offset(tree).dot(view) > IN_VIEW * distance_m;
+        is_ahead && distance_m < REACH_M && preset_of(scene, tree).is_some()
+    };
+    let (mut near, mut far): (Vec<_>, Vec<_>) = trees.into_iter().partition(is_near);
+    near.sort_by(|a, b| offset(a).length().total_cmp(&offset(b).length()));
+    far.extend(near.drain(MOST.min(near.len())..));
+    (near, far)
+}
+
+/// The kind that a planted tree is grown as: its own, or one whose leaves the scene has; `None` without any, and for bushes.
+fn preset_of(scene: &Scene, tree: &TreeInstance) -> Option<TreePreset> {
+    let own = Some(kind_of(tree.kind)).filter(|&preset| preset != TreePreset::Bush)?;
+    std::iter::once(own)
+        .chain(COMMON)
+        .find(|preset| scene.species.iter().any(|species| preset.leaf_shapes().contains(&species.shape)))
+}
+
+/// Grown trees with their leaves.
+#[derive(Debug)]
+pub(crate) struct NearTrees {
+    pub(crate) bark: BarkBuffers,
+    /// Their branches at rest.
+    pub(crate) branches: wgpu::BindGroup,
+    pub(crate) records: TreeRecords,
+    pub(crate) visible: VisibleLeaves,
+    pub(crate) leaves: StillLeaves,
+}
+
+impl NearTrees {
+    /// The trees of `near`, which stand in the park of `scene`; `None` without any.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        cull: &CullPass,
+        scene: &Scene,
+        near: &[TreeInstance],
+        (eye_m, quality): (Vec3, Quality),
+    ) -> Option<Self> {
+        let grove = grove(scene, near);
+        // A scene whose trees cannot be grown has none near: scenery is not worth an error.
+        let world = World::build(&grove).ok().filter(|world| world.leaves.place.len() > 0)?;
+        let scene_trees = SceneTrees::of(&grove, world.compiled.forest());
+        let columns = [
+            bytemuck::cast_slice(&world.leaves.place),
+            bytemuck::cast_slice(&world.leaves.attitude),
+            bytemuck::cast_slice(&world.leaves.schedule),
+            bytemuck::cast_slice(&world.leaves.identity),
+        ];
+        let count = u32::try_from(world.leaves.place.len()).ok()?;
+        let records = TreeRecords::new(device, queue, &scene_trees);
+        // Nobody counts the twigs of scenery.
+        let detail = if quality == Quality::Full { Quality::Draft } else { quality };
+        let group = BranchGroup::new(device, queue, &scene_trees);
+        Some(Self {
+            bark: BarkBuffers::new(device, queue, &scene_trees, (eye_m, detail)),
+            branches: group.bind(device, None, &records, None),
+            visible: VisibleLeaves::new(device, queue, cull, &scene_trees, count),
+            leaves: StillLeaves::new(device, queue, columns, count),
+            records,
+        })
+    }
+}
+
+/// A scene of nothing but the near trees.
+fn grove(scene: &Scene, near: &[TreeInstance]) -> Scene {
+    let tree = |(number, tree): (u32, &TreeInstance)| Tree {
+        kind: preset_of(scene, tree).unwrap_or(TreePreset::Maple).name().to_owned(),
+        at_m: [tree.foot_m.x, tree.foot_m.z],
+        height_m: Some(tree.height_m),
+        heading_deg: tree.turn_rad.to_degrees(),
+        number: 100 + number % INDIVIDUALS,
+        leaves: LEAVES,
+        ..Tree::default()
+    };
+    let ground = Ground { litter: None, ..scene.ground.clone() };
+    Scene {
+        species: scene.species.clone(),
+        trees: (0..).zip(near).map(tree).collect(),
+        autumn: AUTUMN,
+        ground,
+        ..Scene::default()
+    }
+}
