@@ -14,9 +14,12 @@ pub(crate) fn layout(
     })
 }
 
+/// Stages that see textures, samplers and uniform blocks.
+const EVERYWHERE: wgpu::ShaderStages = wgpu::ShaderStages::VERTEX_FRAGMENT.union(wgpu::ShaderStages::COMPUTE);
+
 /// Bind group layout entry of a uniform buffer.
 pub(crate) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
-    buffer_entry(binding, wgpu::BufferBindingType::Uniform, wgpu::ShaderStages::VERTEX_FRAGMENT)
+    buffer_entry(binding, wgpu::BufferBindingType::Uniform, EVERYWHERE)
 }
 
 /// Bind group layout entry of a buffer.
@@ -37,7 +40,7 @@ pub(crate) fn texture_entry(
 ) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        visibility: EVERYWHERE,
         ty: wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false },
         count: None,
     }
@@ -47,7 +50,7 @@ pub(crate) fn texture_entry(
 pub(crate) fn sampler_entry(binding: u32, ty: wgpu::SamplerBindingType) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+        visibility: EVERYWHERE,
         ty: wgpu::BindingType::Sampler(ty),
         count: None,
     }

@@ -9,7 +9,7 @@
 
 use windfall_core::layout::Float4;
 
-use super::page::Page;
+use super::page::{Page, PageLayouts};
 use super::record::{CULL_GROUP_SIZE, ViewUniform};
 use super::species_table::SpeciesTable;
 use crate::frame::cascades::{CASCADES, MAPS};
@@ -27,17 +27,21 @@ pub(crate) enum View {
     Mirror,
     /// View of a shadow map from the sun, or from above.
     Shadow(usize),
+    /// The same of leaves of scenery, whose shadows are coarser.
+    SceneryShadow(usize),
 }
 
 /// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
 /// eight pixels or more. Below the last one pictures are thinned out.
 pub(crate) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.8];
 /// The same for shadows, whose texels are averaged: no finer mesh than the coarse one, and thinned out sooner.
-const SHADOW_LIMITS_PX: [f32; 4] = [60.0, f32::MAX, f32::MAX, 4.0];
+const SHADOW_LIMITS_PX: [f32; 4] = [60.0, f32::MAX, f32::MAX, 6.0];
 /// The same from above, where only shares of sky matter.
 const ABOVE_LIMITS_PX: [f32; 4] = [f32::MAX, f32::MAX, f32::MAX, 9.0];
 /// Most workgroups that write records: enough to fill a large device.
 const MAX_WRITERS: u32 = 1024;
+/// Share of the usual fineness that shadows of scenery have.
+pub(crate) const SCENERY_SHARE: f32 = 0.35;
 /// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.
 const LEAST_SHARE: f32 = 1.0 / 16.0;
 
@@ -73,12 +77,11 @@ impl ViewUniform {
 /// The pipelines of the culling.
 #[derive(Debug)]
 pub(crate) struct CullPass {
-    /// Layout of what drawing reads of a page.
-    pub(crate) records_layout: wgpu::BindGroupLayout,
+    pub(crate) page_layouts: PageLayouts,
     page_layout: wgpu::BindGroupLayout,
     columns_layout: wgpu::BindGroupLayout,
     species_table: wgpu::BindGroup,
-    views: [wgpu::Buffer; 2 + MAPS],
+    views: [wgpu::Buffer; 2 + 2 * MAPS],
     steps: [wgpu::ComputePipeline; 4],
     /// True if leaves bring marks with them.
     pub(crate) is_painted: bool,
@@ -107,7 +110,6 @@ impl CullPass {
         );
         let columns_layout =
             group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
-        let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
         let kinds_layout = group("leaf species_table", &[uniform(0)]);
         let module = compile(device, &super::shaders(), "leaves/cull");
         let constants = [("IS_PAINTED", f64::from(u8::from(is_painted)))];
@@ -125,7 +127,7 @@ impl CullPass {
                 cache: None,
             })
         });
-        let views = [(); 2 + MAPS].map(|()| {
+        let views = [(); 2 + 2 * MAPS].map(|()| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("leaf view"),
                 size: size_of::<ViewUniform>() as u64,
@@ -141,7 +143,15 @@ impl CullPass {
                 resource: species_table.uniform.as_entire_binding(),
             }],
         });
-        Self { records_layout, page_layout, columns_layout, species_table, views, steps, is_painted }
+        Self {
+            page_layouts: PageLayouts::new(device),
+            page_layout,
+            columns_layout,
+            species_table,
+            views,
+            steps,
+            is_painted,
+        }
     }
 
     /// Sets what a view sees in the frames to come.
@@ -154,6 +164,7 @@ impl CullPass {
             View::Camera => &self.views[0],
             View::Mirror => &self.views[1],
             View::Shadow(map) => &self.views[2 + map.min(MAPS - 1)],
+            View::SceneryShadow(map) => &self.views[2 + MAPS + map.min(MAPS - 1)],
         }
     }
 

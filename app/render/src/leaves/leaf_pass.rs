@@ -3,6 +3,8 @@
 //! Draws leaves: instanced, cut out by coverage, in any order.
 
 use super::cull::CullPass;
+use super::meshes::LEVELS;
+use super::small_leaf_light::SmallLeafLight;
 use super::species_table::SpeciesTable;
 use super::visible::VisibleLeaves;
 use crate::frame::group::FrameGroup;
@@ -10,10 +12,13 @@ use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
 use crate::gpu::shaders::compile;
 
-/// The leaf pipeline.
+/// The pipelines of leaves.
 #[derive(Debug)]
 pub(crate) struct LeafPass {
-    pipeline: wgpu::RenderPipeline,
+    /// Lit point by point.
+    fine: wgpu::RenderPipeline,
+    /// Lit once each: leaves of a few pixels. None where leaves burn, which shows point by point.
+    small: Option<(SmallLeafLight, wgpu::RenderPipeline)>,
 }
 
 impl LeafPass {
@@ -24,39 +29,68 @@ impl LeafPass {
         species_table: &SpeciesTable,
         cull: &CullPass,
     ) -> Self {
-        let shader = compile(device, &super::shaders(), "leaves/leaf_pass");
-        let pipeline = ScenePipeline {
-            label: "leaves",
-            frame,
-            groups: &[&light.layout, &species_table.layout, &cull.records_layout],
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            culls_back: false,
-            shader: &shader,
-            vertex: "vertex",
-            constants: &[
-                ("IS_PAINTED", f64::from(u8::from(cull.is_painted))),
-                ("LEAVES_BURN", f64::from(u8::from(species_table.leaves_burn))),
-            ],
-            buffers: &[VisibleLeaves::layout()],
-            blend: None,
-            depth_write: true,
-            alpha_to_coverage: false,
+        let pipeline = |label, name, records| {
+            let shader = compile(device, &super::shaders(), name);
+            ScenePipeline {
+                label,
+                frame,
+                groups: &[&light.layout, &species_table.layout, records],
+                topology: wgpu::PrimitiveTopology::TriangleStrip,
+                culls_back: false,
+                shader: &shader,
+                vertex: "vertex",
+                constants: &[
+                    ("IS_PAINTED", f64::from(u8::from(cull.is_painted))),
+                    ("LEAVES_BURN", f64::from(u8::from(species_table.leaves_burn))),
+                ],
+                buffers: &[VisibleLeaves::layout()],
+                blend: None,
+                depth_write: true,
+                alpha_to_coverage: false,
+            }
+            .build(device)
+        };
+        Self {
+            fine: pipeline("leaves", "leaves/leaf_pass", &cull.page_layouts.records),
+            small: (!species_table.leaves_burn).then(|| {
+                let records = &cull.page_layouts.lit_records;
+                let lighting = SmallLeafLight::new(device, frame, light, species_table, cull);
+                (lighting, pipeline("small leaves", "leaves/small_leaf_pass", records))
+            }),
         }
-        .build(device);
-        Self { pipeline }
     }
 
-    /// Draws leaves as the camera's culling left them; bind groups 0 and 1 are set.
+    /// Finds the light on small leaves as the last culling left them; groups are those of a frame and of light.
+    pub(crate) fn light<'a>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        [frame, light]: [&wgpu::BindGroup; 2],
+        species_table: &SpeciesTable,
+        visible: impl Iterator<Item = &'a VisibleLeaves>,
+    ) {
+        if let Some((lighting, _)) = &self.small {
+            lighting.run(encoder, [frame, light, &species_table.group], visible);
+        }
+    }
+
+    /// Draws leaves as the last culling left them; bind groups 0 and 1 are set.
     pub(crate) fn draw<'a>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         species_table: &SpeciesTable,
-        visible: impl Iterator<Item = &'a VisibleLeaves>,
+        visible: impl Iterator<Item = &'a VisibleLeaves> + Clone,
     ) {
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.fine);
         pass.set_bind_group(2, &species_table.group, &[]);
-        for leaves in visible {
-            leaves.draw(pass);
+        let levels = if self.small.is_some() { 1..LEVELS } else { 0..LEVELS };
+        for leaves in visible.clone() {
+            leaves.draw(pass, levels.clone());
+        }
+        if let Some((_, pipeline)) = &self.small {
+            pass.set_pipeline(pipeline);
+            for leaves in visible {
+                leaves.draw_lit(pass);
+            }
         }
     }
 }

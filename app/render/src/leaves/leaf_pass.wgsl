@@ -1,16 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Leaves, lit by the sun in front of them and through them.
+// Leaves, lit point by point by the sun in front of them and through them.
 
-#import frame/coverage
-#import frame/fire_light
-#import frame/light
-#import leaves/front
-#import leaves/shape
-
-// Leaves are painted by what they do: the colour is the mark's, the picture only shows in its veins and spots, and both sides
-// are alike, with and against the light.
-override IS_PAINTED: bool = false;
+#import leaves/leaf_light
 
 struct Varyings {
     @builtin(position) @invariant clip: vec4<f32>,
@@ -32,21 +24,6 @@ struct Varyings {
     // Share to which snow lies on it while it hangs.
     @location(11) @interpolate(flat) snowy: f32,
 }
-
-// Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
-const ROUGHNESS: vec2<f32> = vec2(0.42, 0.62);
-const WAX: f32 = 0.04;
-// Roughness of a leaf with a film of water on it: set by eye.
-const WET_ROUGHNESS: f32 = 0.28;
-// Share that an uneven sheet mirrors at a slant, set by eye; the rest it mirrors onto itself.
-const SLANTED: f32 = 0.25;
-// Chance that light which leaves a leaf of a crown meets another one (recollision probability of Smolander and Stenberg,
-// 2005), for leaves that the sky can see; the value is set by eye.
-const RECOLLISION: f32 = 0.55;
-// Light that a blade lets through for each unit that its map says: set by eye.
-const CLEARNESS: f32 = 1.6;
-// Most light that leaves a blade on both sides together.
-const MOST: f32 = 0.94;
 
 @vertex
 fn vertex(in: LeafVertex) -> Varyings {
@@ -75,37 +52,6 @@ fn vertex(in: LeafVertex) -> Varyings {
     return out;
 }
 
-// Share that wax mirrors of light that meets it at an angle of this cosine (Schlick).
-fn mirrored_share(cosine: f32) -> f32 {
-    let slant = 1.0 - cosine;
-    return WAX + (SLANTED - WAX) * (slant * slant) * (slant * slant) * slant;
-}
-
-// GGX distribution with Smith's visibility and Schlick's Fresnel term, times the cosine at the light.
-fn gloss(normal: vec3<f32>, to_eye: vec3<f32>, to_light: vec3<f32>, roughness: f32) -> f32 {
-    let half_way = normalize(to_light + to_eye);
-    let nl = max(dot(normal, to_light), 0.0);
-    let nv = max(dot(normal, to_eye), 0.02);
-    let nh = max(dot(normal, half_way), 0.0);
-    let alpha = roughness * roughness;
-    let a2 = alpha * alpha;
-    let lobe = nh * nh * (a2 - 1.0) + 1.0;
-    let visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-4);
-    return a2 / (PI * lobe * lobe) * visible * mirrored_share(max(dot(to_eye, half_way), 0.0)) * nl;
-}
-
-fn blade_color(image: vec3<f32>, tint: vec3<f32>) -> vec3<f32> {
-    if IS_PAINTED {
-        return tint * mix(0.75, 1.0, clamp(3.0 * luminance(image), 0.0, 1.0));
-    }
-    return image * tint;
-}
-
-struct Painted {
-    @location(0) color: vec4<f32>,
-    @builtin(sample_mask) mask: u32,
-}
-
 // State of a leaf at a point that its front nears or has passed.
 fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
     let front = Front(in.front.x, in.front.y, in.front.z, in.front.w);
@@ -120,16 +66,10 @@ fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
 fn fragment(in: Varyings) -> Painted {
     let image = textureSample(images, image_sampler, in.uv, in.layer);
     let surface = textureSample(surfaces, image_sampler, in.uv, in.layer);
-    // A sharp rim at any size: the alpha ramp is made one pixel wide. A leaf of a few texels has no rim: its alpha is the
-    // share of the pixel that it covers.
-    let size = vec2<f32>(textureDimensions(images));
-    let span = max(length(dpdx(in.uv) * size), length(dpdy(in.uv) * size));
-    let levels_left = f32(textureNumLevels(images)) - 1.0 - log2(max(span, 1.0));
-    let rim = max(fwidth(image.a), mix(1.0, 0.04, smoothstep(4.0, 6.0, levels_left)));
-    var alpha = clamp((image.a - 0.5) / rim + 0.5, 0.0, 1.0);
+    var alpha = blade_cover(image.a, in.uv);
     var tissue: Tissue;
     if LEAVES_BURN {
-        tissue = burnt_tissue(in, surface.a, max(fwidth(surface.a), exp2(-levels_left)));
+        tissue = burnt_tissue(in, surface.a, max(fwidth(surface.a), exp2(-halvings_left(in.uv))));
         alpha *= tissue.left;
     }
     let mask = covered(alpha, hash_u32(bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y)));
@@ -149,28 +89,21 @@ fn fragment(in: Varyings) -> Painted {
     let normal = normalize(sheet + in.outward_mirror.xyz);
 
     var reflectance = blade_color(image.rgb, in.tint_open.rgb);
-    // Light that crosses a blade meets its pigments on a longer way: deeper colour for the same lightness.
-    let deep = reflectance * sqrt(reflectance);
-    var transmittance = deep * (CLEARNESS * surface.z / max(luminance(deep), 0.004)) * mix(1.0, 0.6, in.settled);
-    if IS_PAINTED {
-        transmittance = 0.4 * reflectance;
-    }
-    // The underside, seen through its air spaces, is paler.
+    var transmittance = crossing(reflectance, surface.z, in.settled);
     if seen < 0.0 && !IS_PAINTED {
-        let pale = mix(reflectance, vec3(luminance(reflectance)) * vec3(1.08, 1.05, 0.92), 0.25) * 1.12 + 0.008;
-        reflectance = pale;
+        reflectance = pale(reflectance);
     }
     // Melted snow soaks what lies: darker, and a film of water on it mirrors as smoothly as wax.
     let wet = wetness(in.world.xz) * in.settled;
     reflectance = wet_reflectance(min(reflectance, vec3(0.8)), wet);
     var wax = 1.0;
     if in.snowy > 0.0 {
-        // It lies on what is level first, and thickest in the middle; from below it only keeps the light out.
-        let edge = length(in.uv - 0.5) * 0.9 + 0.5 * (unit_from(hash_u32(bitcast<u32>(in.attitude.z))) - 0.5);
-        let lies = smoothstep(0.0, 0.25, in.snowy * (0.35 + 0.9 * abs(blade.y)) - 0.75 * edge) * smoothstep(0.15, 0.5, abs(blade.y));
+        // From below it only keeps the light out.
+        let random = unit_from(hash_u32(bitcast<u32>(in.attitude.z)));
+        let lies = snow_on_blade(in.snowy, abs(blade.y), length(in.uv - 0.5), random);
         transmittance *= 1.0 - 0.85 * lies;
         let top = lies * f32(blade.y * seen > 0.0);
-        reflectance = mix(reflectance, vec3(0.84, 0.86, 0.89), top);
+        reflectance = mix(reflectance, SNOW_COLOR, top);
         wax = 1.0 - top;
     }
     if LEAVES_BURN {

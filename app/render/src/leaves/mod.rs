@@ -10,6 +10,7 @@ pub(crate) mod motion_pass;
 pub(crate) mod page;
 pub(crate) mod previous;
 pub(crate) mod record;
+pub(crate) mod small_leaf_light;
 pub(crate) mod species_table;
 mod strip;
 pub(crate) mod visible;
@@ -30,6 +31,7 @@ pub(crate) fn shaders() -> Shaders {
         meshes::LeafMesh::declaration(),
         record::LeafRecord::declaration(),
         record::LeafDraw::declaration(),
+        record::LeafLight::declaration(),
         record::PageUniform::declaration(),
         record::ViewUniform::declaration(),
         burning::BurningUniform::declaration(),
@@ -42,6 +44,6 @@ pub(crate) fn shaders() -> Shaders {
     ];
     let text = declarations(lists) + &burning::light_constants() + &structs.concat();
     shaders.extend([("leaves/structs", text)]);
-    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "front", "cull", "burning", "leaf_pass", "motion_pass"));
+    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "front", "cull", "burning", "leaf_light", "leaf_pass", "small_leaf_light", "small_leaf_pass", "motion_pass"));
     shaders
 }

@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pages of slots, each with room for the records of what a view shows.
 
+use std::ops::Range;
+
 use super::meshes::LEVELS;
-use super::record::{COLUMN_BYTES, LeafDraw, LeafRecord, PageUniform, SLOTS_PER_THREAD};
+use super::record::{COLUMN_BYTES, LeafDraw, LeafLight, LeafRecord, PageUniform, SLOTS_PER_THREAD};
+use crate::gpu::pipeline::buffer_entry;
 use crate::gpu::upload;
 use crate::trees::SceneTrees;
 
 /// Most slots of a page, and most leaves drawn from it: what the smallest binding that WebGPU allows can hold.
 pub(crate) const PAGE_SLOTS: u32 = 1 << 20;
 const PAGE_RECORDS: u32 = 1 << 21;
-/// Bytes of a record and of a draw.
+/// Bytes of a record, of the light on it and of a draw.
 const RECORD_BYTES: u64 = size_of::<LeafRecord>() as u64;
+const LIGHT_BYTES: u64 = size_of::<LeafLight>() as u64;
 const DRAW_BYTES: u64 = size_of::<LeafDraw>() as u64;
 
 /// Slots that are culled together, and what comes of it.
@@ -23,8 +27,48 @@ pub(crate) struct Page {
     pub(crate) records: wgpu::Buffer,
     /// For the culling, without the view.
     pub(crate) buffers: PageBuffers,
-    /// For the drawing.
+    /// For the drawing: the records, and of small leaves also their light.
     pub(crate) group: wgpu::BindGroup,
+    pub(crate) lit_group: wgpu::BindGroup,
+    /// For finding the light on small leaves.
+    pub(crate) lighting: wgpu::BindGroup,
+    /// Most leaves that are drawn.
+    pub(crate) most_records: u32,
+}
+
+/// Layouts of what of a page is bound, other than by its culling.
+#[derive(Debug)]
+pub(crate) struct PageLayouts {
+    /// Records, to be drawn.
+    pub(crate) records: wgpu::BindGroupLayout,
+    /// Records and the light on them, to be drawn.
+    pub(crate) lit_records: wgpu::BindGroupLayout,
+    /// Records, their light, and the draws that say which are small.
+    pub(crate) lighting: wgpu::BindGroupLayout,
+}
+
+impl PageLayouts {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let read = wgpu::BufferBindingType::Storage { read_only: true };
+        let write = wgpu::BufferBindingType::Storage { read_only: false };
+        let (vertex, compute) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::COMPUTE);
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+        };
+        let records = buffer_entry(0, read, vertex);
+        Self {
+            records: layout("leaf records", &[records]),
+            lit_records: layout("lit leaf records", &[records, buffer_entry(1, read, vertex)]),
+            lighting: layout(
+                "leaf lighting",
+                &[
+                    buffer_entry(0, read, compute),
+                    buffer_entry(1, write, compute),
+                    buffer_entry(2, read, compute),
+                ],
+            ),
+        }
+    }
 }
 
 /// Buffers that only the culling uses.
@@ -39,7 +83,7 @@ impl Page {
     pub(crate) fn all(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        records_layout: &wgpu::BindGroupLayout,
+        layouts: &PageLayouts,
         scene_trees: &SceneTrees,
         leaf_count: u32,
     ) -> Vec<Self> {
@@ -53,16 +97,16 @@ impl Page {
                 threads: count.div_ceil(SLOTS_PER_THREAD),
                 trees: records_of_trees,
             };
-            Self::new(device, queue, records_layout, uniform, records)
+            Self::new(device, queue, layouts, uniform, records)
         };
         split(&trees, leaf_count).into_iter().map(page).collect()
     }
 
-    /// A page with room for so many `records`, which drawing binds by `records_layout`.
+    /// A page with room for so many `records`.
     fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        records_layout: &wgpu::BindGroupLayout,
+        layouts: &PageLayouts,
         uniform: PageUniform,
         records: u32,
     ) -> Self {
@@ -77,16 +121,31 @@ impl Page {
         let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
         let indirect =
             wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
-        let records = buffer("leaf records", u64::from(records.max(1)) * RECORD_BYTES, storage);
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("leaf records"),
-            layout: records_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: records.as_entire_binding() }],
-        });
+        let most_records = records.max(1);
+        let records = buffer("leaf records", u64::from(most_records) * RECORD_BYTES, storage);
+        let lights = buffer("light on leaves", u64::from(most_records) * LIGHT_BYTES, storage);
+        let draws = buffer("leaf draws", LEVELS as u64 * DRAW_BYTES, storage | indirect);
+        let bind = |label, layout, buffers: &[&wgpu::Buffer]| {
+            let entries: Vec<_> = (0u32..)
+                .zip(buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(label),
+                layout,
+                entries: &entries,
+            })
+        };
+        let group = bind("leaf records", &layouts.records, &[&records]);
+        let lit_group = bind("lit leaf records", &layouts.lit_records, &[&records, &lights]);
+        let lighting = bind("leaf lighting", &layouts.lighting, &[&records, &lights, &draws]);
         let bytes = bytemuck::bytes_of(&uniform);
         Self {
             uniform,
-            draws: buffer("leaf draws", LEVELS as u64 * DRAW_BYTES, storage | indirect),
+            draws,
             buffers: PageBuffers {
                 uniform: upload::buffer(device, queue, "leaf page", wgpu::BufferUsages::UNIFORM, bytes),
                 chosen: buffer(
@@ -97,6 +156,9 @@ impl Page {
             },
             records,
             group,
+            lit_group,
+            lighting,
+            most_records,
         }
     }
 
@@ -113,11 +175,11 @@ impl Page {
         Some(columns.map(|buffer| wgpu::BufferBinding { buffer, offset, size: Some(size) }))
     }
 
-    /// Draws its levels; all bind groups are set.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    /// Draws some of its levels; all bind groups are set.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, levels: Range<usize>) {
         // Near leaves are finer: they hide the others.
-        for level in (0..LEVELS as u64).rev() {
-            let at = level * DRAW_BYTES;
+        for level in levels.rev() {
+            let at = level as u64 * DRAW_BYTES;
             pass.set_vertex_buffer(0, self.draws.slice(at..at + DRAW_BYTES));
             pass.draw_indirect(&self.draws, at);
         }

@@ -70,6 +70,28 @@ shared_struct! {
 }
 
 shared_struct! {
+    /// Light on a leaf of a few pixels, in halves.
+    pub(crate) struct LeafLight {
+        /// On the side that is seen: red and green.
+        front_rg: u32,
+        /// Its blue, and red on the other side.
+        front_b_back_r: u32,
+        /// Green and blue on the other side.
+        back_gb: u32,
+        /// Mirrored by the wax: red and green.
+        mirrored_rg: u32,
+        /// Its blue, and clearness of the blade, negative if its lower side is seen.
+        mirrored_b_clear: u32,
+        /// Light of the air before it: red and green.
+        air_rg: u32,
+        /// Its blue, and share that the air lets through.
+        air_ba: u32,
+        /// Shares in bytes: of light that other leaves send back, settled, wet, of snow.
+        shares: u32,
+    }
+}
+
+shared_struct! {
     /// Slots that are culled together.
     pub(crate) struct PageUniform {
         /// First slot.

@@ -4,11 +4,13 @@
 
 use std::iter;
 use std::mem::offset_of;
+use std::ops::Range;
 
 use windfall_wgpu::LeafColumns;
 
 use super::burning::BurningPass;
 use super::cull::{CullPass, View};
+use super::meshes::LEVELS;
 use super::page::Page;
 use super::record::LeafDraw;
 use crate::trees::SceneTrees;
@@ -29,7 +31,7 @@ impl VisibleLeaves {
         scene_trees: &SceneTrees,
         leaf_count: u32,
     ) -> Self {
-        Self { pages: Page::all(device, queue, &cull.records_layout, scene_trees, leaf_count) }
+        Self { pages: Page::all(device, queue, &cull.page_layouts, scene_trees, leaf_count) }
     }
 
     /// Culls the leaves of `columns`, with their `marks` if they are painted, for a view: a number of those that were
@@ -69,11 +71,19 @@ impl VisibleLeaves {
         }
     }
 
-    /// Draws what the last culling left; the pipeline and bind groups 0 to 2 are set.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    /// Draws some levels of detail of what the last culling left; the pipeline and bind groups 0 to 2 are set.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, levels: Range<usize>) {
         for page in &self.pages {
             pass.set_bind_group(3, &page.group, &[]);
-            page.draw(pass);
+            page.draw(pass, levels.clone());
+        }
+    }
+
+    /// Draws the small leaves that the last culling left, in the light found for them; the pipeline and bind groups 0 to 2 are set.
+    pub(crate) fn draw_lit(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for page in &self.pages {
+            pass.set_bind_group(3, &page.lit_group, &[]);
+            page.draw(pass, 0..1);
         }
     }
 
@@ -102,7 +112,7 @@ impl VisibleLeaves {
                 entries: &entries,
             };
             pass.set_bind_group(3, &device.create_bind_group(&descriptor), &[]);
-            page.draw(pass);
+            page.draw(pass, 0..LEVELS);
         }
     }
 

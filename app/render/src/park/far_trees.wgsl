@@ -76,18 +76,16 @@ fn fragment(in: Varyings) -> Painted {
     // Texels of a pixel, and the finest square of texels that is no finer than a pixel: random numbers belong to those, and stay
     // with them as the view moves.
     let size = vec2<f32>(textureDimensions(sprites));
-    let across = dpdx(in.uv);
-    let down = dpdy(in.uv);
-    let span = max(length(across * size), length(down * size));
+    let span = max(length(dpdx(in.uv) * size), length(dpdy(in.uv) * size));
     let square = vec2<u32>(floor(in.uv * size / exp2(max(floor(log2(span)), 0.0))));
     let random = hash_u32(square.x + hash_u32(square.y + hash_u32(in.layers.x)));
     let takes_second = unit_from(hash_u32(random)) < in.second;
     let layer = select(in.layers.x, in.layers.y, takes_second);
     let mirror = select(in.mirrors.x, in.mirrors.y, takes_second);
     let uv = vec2(select(1.0 - in.uv.x, in.uv.x, mirror > 0.0), in.uv.y);
-    let way = vec2(mirror, 1.0);
-    let surface = textureSampleGrad(sprites, sprite_sampler, uv, layer, way * across, way * down);
-    let relief = textureSampleGrad(sprites, sprite_sampler, uv, layer + 1u, way * across, way * down);
+    let level = log2(max(span, 1.0));
+    let surface = textureSampleLevel(sprites, sprite_sampler, uv, layer, level);
+    let relief = textureSampleLevel(sprites, sprite_sampler, uv, layer + 1u, level);
     // Close by, leaves have a sharp rim; from afar a texel says which share of a pixel they cover.
     let rim = mix(0.3, 1.0, smoothstep(0.4, 1.0, span));
     let mask = covered(clamp((surface.a - 0.5) / rim + 0.5, 0.0, 1.0), random);
@@ -98,8 +96,8 @@ fn fragment(in: Varyings) -> Painted {
     let side = normalize(vec3(to_eye.z, 0.0, -to_eye.x));
     let tilt = vec2((relief.r * 2.0 - 1.0) * mirror, relief.g * 2.0 - 1.0);
     let front = sqrt(max(1.0 - dot(tilt, tilt), 0.05));
-    let level = normalize(vec3(to_eye.x, 0.0, to_eye.z));
-    let normal = normalize(side * tilt.x + vec3(0.0, tilt.y, 0.0) + level * front);
+    let ahead = normalize(vec3(to_eye.x, 0.0, to_eye.z));
+    let normal = normalize(side * tilt.x + vec3(0.0, tilt.y, 0.0) + ahead * front);
 
     let leaf = autumn(in.look.x + (surface.g - 0.5) * 0.5) * in.look.y * (0.35 + 0.9 * surface.r);
     let bark = vec3(0.105, 0.074, 0.052) * (0.5 + surface.r);

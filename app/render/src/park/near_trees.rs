@@ -18,10 +18,10 @@ use crate::trees::branch_group::BranchGroup;
 use crate::trees::records::TreeRecords;
 
 /// Distance from the eye up to which trees are grown, in metres, and most of them.
-const REACH_M: f32 = 55.0;
-const MOST: usize = 10;
+const REACH_M: f32 = 42.0;
+const MOST: usize = 5;
 /// Leaves of a tree, each for several.
-const LEAVES: u32 = 2400;
+const LEAVES: u32 = 1600;
 /// How far their autumn has come.
 const AUTUMN: f32 = 0.5;
 /// Different trees of a kind: others are the same ones turned.

@@ -8,13 +8,14 @@ use windfall_wgpu::{LeafColumns, WorldColumns};
 use super::Renderer;
 use super::timed::{SCENE_PARTS, ScenePart, TIMED_PARTS, TIMED_POSTS, TIMED_SCENE};
 use crate::camera::{Camera, NEAR_M};
+use crate::frame::group::FrameGroup;
 use crate::frame::input::FrameInput;
 use crate::frame::sides::Sides;
 use crate::frame::surroundings::FrameUniform;
 use crate::gpu::targets::Targets;
 use crate::gpu::tile::Tile;
 use crate::gpu::timing::GpuTimer;
-use crate::leaves::cull::View as LeafView;
+use crate::leaves::cull::{SCENERY_SHARE, View as LeafView};
 use crate::leaves::record::ViewUniform;
 use crate::leaves::visible::VisibleLeaves;
 use crate::lens::group::Shot;
@@ -133,7 +134,7 @@ impl Renderer {
         if self.quality.has_fine_parts() {
             let dense = self.quality.grass_distance();
             self.grass_pass.prepare(
-                &self.queue,
+                (&self.device, &self.queue),
                 &input.camera,
                 (self.targets.shaded_size(), dense),
                 &self.land,
@@ -167,11 +168,16 @@ impl Renderer {
             self.cull_leaves(encoder, world, LeafView::Shadow(map));
         };
         self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters, &cull_for);
-        if self.water_pass.is_some() {
+        if let Some(water) = &self.water_pass {
             self.cull_leaves(encoder, world, LeafView::Mirror);
+            self.light_leaves(encoder, &water.frame);
         }
         self.draw_mirror(encoder, &frame, &group);
         self.cull_leaves(encoder, world, LeafView::Camera);
+        self.light_leaves(encoder, &self.frame);
+        if self.quality.has_fine_parts() {
+            self.grass_pass.light(encoder, [&self.frame.group, &self.light.group]);
+        }
         let sides = Sides::of(frame.view_projection);
         let part_input = PartInput { leaf_count: leaves.leaf_count, branches: &group, sides: &sides };
         self.draw_scene(encoder, timer, part_input);
@@ -260,6 +266,8 @@ impl Renderer {
             let pixels_per_m = 0.5 * self.shadow_pass.size_px as f32 * scale;
             let seen = ViewUniform::parallel(clip, pixels_per_m, map, share);
             self.cull.write(&self.queue, LeafView::Shadow(map), &seen);
+            let seen = ViewUniform::parallel(clip, pixels_per_m, map, SCENERY_SHARE * share);
+            self.cull.write(&self.queue, LeafView::SceneryShadow(map), &seen);
         }
     }
 
@@ -283,8 +291,15 @@ impl Renderer {
             );
         }
         if let Some(near) = self.near_trees.as_ref().filter(|_| !cull.is_painted) {
+            let view = if let LeafView::Shadow(map) = view { LeafView::SceneryShadow(map) } else { view };
             near.visible.cull(device, encoder, cull, (&near.leaves.columns(), None, &near.records), view);
         }
+    }
+
+    /// Finds the light on the small leaves that the last culling left, as they are seen in a frame.
+    fn light_leaves(&self, encoder: &mut wgpu::CommandEncoder, frame: &FrameGroup) {
+        let groups = [&frame.group, &self.light.group];
+        self.leaf_pass.light(encoder, groups, &self.species_table, self.visible().into_iter());
     }
 
     /// Draws the scene, in one pass or, to time its parts, in a pass of each.
@@ -323,7 +338,7 @@ impl Renderer {
                 }
             }
             ScenePart::Leaves => {
-                self.leaf_pass.draw(pass, &self.species_table, self.visible().into_iter());
+                self.leaf_pass.draw(pass, &self.species_table, self.visible().iter().copied());
                 self.fruit_pass.draw(pass, branches);
                 if let Some(blobs) = self.blobs() {
                     blobs.draw(pass);

@@ -149,7 +149,11 @@ impl Renderer {
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
         let eye_m = camera.eye_m();
         let shedding = shedding(&planted, center, scene_trees);
-        let (near, planted) = part(scene, planted, eye_m, level);
+        let (near, planted) = if options.quality.has_fine_parts() {
+            part(scene, planted, eye_m, level)
+        } else {
+            (Vec::new(), planted)
+        };
 
         let targets = Targets::new(
             device,
@@ -159,7 +163,7 @@ impl Renderer {
         )?;
         let objects = ObjectBuffers::new(device, queue, solids);
         let standing = Standing {
-            trees: !scene_trees.trees.is_empty() || !near.is_empty(),
+            trees: !scene_trees.trees.is_empty(),
             objects: objects.is_some(),
             fire_lights: light_count(scene),
             snow: snow.is_some(),

@@ -24,12 +24,14 @@ pub(crate) fn shaders() -> Shaders {
         "scenery/structs",
         declarations(lists)
             + &grass_pass::GrassCell::declaration()
+            + &grass_pass::GrassClass::declaration()
+            + &grass_pass::GrassBlade::declaration()
             + &snow_pass::SnowUniform::declaration()
             + &snow_caps::CapNode::declaration()
             + &snow_cells::DrawnCell::declaration(),
     )]);
     shaders.extend(wgsl_files!(
-        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass", "snow_map"
+        "scenery": "meadow", "horizon", "grass_light", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass", "snow_map"
     ));
     shaders
 }

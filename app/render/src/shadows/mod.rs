@@ -10,6 +10,7 @@ use crate::frame::sides::Sides;
 use crate::gpu::pipeline::layout;
 use crate::gpu::shaders::{Shaders, compile, wgsl_files};
 use crate::leaves::cull::CullPass;
+use crate::leaves::meshes::LEVELS;
 use crate::leaves::species_table::SpeciesTable;
 use crate::leaves::visible::VisibleLeaves;
 use crate::objects::records::ObjectBuffers;
@@ -114,7 +115,7 @@ impl ShadowPass {
                     "leaf shadows",
                     number,
                     &leaf_shader,
-                    [Some(&species_table.layout), Some(&cull.records_layout)],
+                    [Some(&species_table.layout), Some(&cull.page_layouts.records)],
                     &[VisibleLeaves::layout()],
                     true,
                 ),
@@ -278,7 +279,7 @@ impl MapPass {
         pass.set_pipeline(&self.leaves);
         pass.set_bind_group(2, &casters.species_table.group, &[]);
         for leaves in casters.visible {
-            leaves.draw(&mut pass);
+            leaves.draw(&mut pass, 0..LEVELS);
         }
     }
 }
