@@ -3,9 +3,11 @@
 //! Draws leaves in a park, from buffers that any simulator lends.
 //!
 //! A frame: the shade of the far trees from above (once per sun), past positions of leaves for their trails, three shadow
-//! maps of leaves and bark (each around a slice of what is seen), then one multisampled scene pass
-//! in linear light (bark, objects, leaves, fruit, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
-//! of the scene's trees move with the branch columns on the device; the far woods are pictures. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
+//! maps of leaves and bark (each around a slice of what is seen), light on small leaves and on grass, then one multisampled scene pass
+//! in linear light (objects, leaves, fruit, bark, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
+//! of the scene's trees move with the branch columns on the device; the nearest trees of the park are grown as well and stand still, the far woods
+//! are pictures. Leaves are cut out by coverage, so their order never matters. Drafts and plain pictures ([`Quality`]) shade four pixels
+//! together. Nothing here needs a window.
 
 #![warn(unreachable_pub)]
 

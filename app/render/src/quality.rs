@@ -88,7 +88,7 @@ impl Quality {
     /// Share of the leaves' fineness: what a full picture draws at so many pixels is drawn at more.
     pub(crate) fn leaf_share(self) -> f32 {
         match self {
-            Self::Plain => 0.2,
+            Self::Plain => 0.15,
             Self::Draft => 0.5,
             Self::Full => 1.0,
         }

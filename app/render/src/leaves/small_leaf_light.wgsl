@@ -7,6 +7,8 @@
 @group(3) @binding(1) var<storage, read_write> lights: array<LeafLight>;
 @group(3) @binding(2) var<storage, read> draws: array<LeafDraw, 4>;
 
+// Distance of the points of a blade from its middle in edges, on average.
+const MEAN_AWAY: f32 = 0.22;
 // Halvings of a leaf's pictures of which a texel is a large part.
 const BLADE_LEVEL: f32 = 5.0;
 
@@ -27,7 +29,7 @@ fn light_on(record: LeafRecord) -> LeafLight {
     let sun = frame.sun_color * tree_shade(center).r * leaf_shadow(center + light * 0.035);
     let facing = dot(normal, light);
     let wet = wetness(center.xz) * settled;
-    let lies = select(snow_on_blade(snow_on_leaves(center.xz), abs(blade.y), 0.35, unit_from(random)), 0.0, is_free);
+    let lies = select(snow_on_blade(snow_on_leaves(center.xz), abs(blade.y), MEAN_AWAY, unit_from(random)), 0.0, is_free);
     let snow = lies * f32(blade.y * seen > 0.0);
     let roughness = mix(select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0), WET_ROUGHNESS, wet);
     let open = unpack2x16float(record.blue_open).y * mix(0.35, 1.0, open_above(center, select(0u, SKY_TAPS, is_free)));

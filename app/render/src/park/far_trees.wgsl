@@ -110,9 +110,9 @@ fn fragment(in: Varyings) -> Painted {
     // Leaves let the sun through: the crown's thin rim glows against it.
     let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
     let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.15, 0.95, 0.6);
-    let through = saturated * (1.0 - surface.b) * (1.0 - snow) * against * open * open * (0.25 + 1.1 * lit);
+    let through = saturated * (1.0 - surface.b) * (1.0 - snow) * against * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color * hill_light(in.world) * (albedo * lit + through);
-    color += albedo * (ambient_light(normal) * (0.25 + 0.75 * open) + fire_light(in.world, normal));
+    color += albedo * (ambient_light(normal) * (0.32 + 0.68 * open) + fire_light(in.world, normal));
     return Painted(vec4(color * in.air.a + in.air.rgb, 1.0), mask);
 }
 

@@ -3,6 +3,8 @@
 //! Trees of the park that stand too near to be painted: grown like those of a scene, and drawn by the same passes. They stand still.
 
 use glam::{Vec2, Vec3};
+use windfall_core::device::leaf::record::{STATE_ATTACHED, STATE_DORMANT, leaf_state};
+use windfall_core::leaf::Place;
 use windfall_core::scene::{Ground, Tree, TreePreset};
 use windfall_core::{Scene, World};
 
@@ -83,7 +85,8 @@ impl NearTrees {
     ) -> Option<Self> {
         let grove = grove(scene, near);
         // A scene whose trees cannot be grown has none near: scenery is not worth an error.
-        let world = World::build(&grove).ok().filter(|world| world.leaves.place.len() > 0)?;
+        let mut world = World::build(&grove).ok().filter(|world| world.leaves.place.len() > 0)?;
+        hide_fallen(&mut world.leaves.place);
         let scene_trees = SceneTrees::of(&grove, world.compiled.forest());
         let columns = [
             bytemuck::cast_slice(&world.leaves.place),
@@ -106,6 +109,13 @@ impl NearTrees {
     }
 }
 
+/// Hides leaves that hang on no twig: those that have been shed before belong to the scene's own litter and wind.
+fn hide_fallen(places: &mut [Place]) {
+    for place in places.iter_mut().filter(|place| leaf_state(place.bits) != STATE_ATTACHED) {
+        place.bits = STATE_DORMANT;
+    }
+}
+
 /// A scene of nothing but the near trees.
 fn grove(scene: &Scene, near: &[TreeInstance]) -> Scene {
     let tree = |(number, tree): (u32, &TreeInstance)| Tree {
@@ -124,5 +134,63 @@ fn grove(scene: &Scene, near: &[TreeInstance]) -> Scene {
         autumn: AUTUMN,
         ground,
         ..Scene::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::scene::{LeafShape, Species};
+
+    use super::*;
+    use crate::park::tree_sprite::TREE_COUNT;
+
+    fn scene(shape: LeafShape) -> Scene {
+        Scene { species: vec![Species { shape, ..Species::default() }], ..Scene::default() }
+    }
+
+    /// Trees of every kind in a row along the view, from 10 metres on, and one behind the eye.
+    fn row() -> Vec<TreeInstance> {
+        let tree = |kind: u32, along_m: f32| TreeInstance {
+            foot_m: Vec3::new(0.0, 0.0, -along_m),
+            height_m: 12.0,
+            width: 1.0,
+            kind,
+            turn_rad: 1.0,
+            cut: 0.0,
+            hue: 0.5,
+            brightness: 1.0,
+        };
+        (0..10)
+            .map(|number| tree(number % TREE_COUNT, 55.0 - 5.0 * number as f32))
+            .chain([tree(0, -12.0)])
+            .collect()
+    }
+
+    #[test]
+    fn the_nearest_trees_in_view_are_grown() {
+        let (near, far) = part(&scene(LeafShape::Maple), row(), Vec3::ZERO, Vec2::NEG_Y);
+        assert_eq!((near.len(), far.len()), (MOST, 11 - MOST), "as many as there may be");
+        assert!(near.windows(2).all(|pair| pair[0].foot_m.z > pair[1].foot_m.z), "nearest first: {near:?}");
+        assert!(near.iter().all(|tree| kind_of(tree.kind) != TreePreset::Bush), "no bushes");
+        assert!(far.iter().any(|tree| tree.foot_m.z > 0.0), "not behind the eye");
+        let grove = grove(&scene(LeafShape::Maple), &near);
+        assert!(
+            grove.trees.iter().all(|tree| tree.kind == "maple"),
+            "of the leaves there are: {:?}",
+            grove.trees
+        );
+        let mut world = World::build(&grove).expect("a scene of trees");
+        hide_fallen(&mut world.leaves.place);
+        let with_state =
+            |state| world.leaves.place.iter().filter(|place| leaf_state(place.bits) == state).count();
+        let (hanging, hidden) = (with_state(STATE_ATTACHED), with_state(STATE_DORMANT));
+        assert!(hanging > 500 * near.len(), "with leaves: {hanging}");
+        assert_eq!(hanging + hidden, world.leaves.place.len(), "none in the air or on the ground");
+    }
+
+    #[test]
+    fn without_leaves_of_trees_all_are_painted() {
+        let (near, far) = part(&scene(LeafShape::Feather), row(), Vec3::ZERO, Vec2::NEG_Y);
+        assert_eq!((near.len(), far.len()), (0, 11), "feathers grow on no tree");
     }
 }

@@ -45,6 +45,8 @@ const CLUSTERS: u32 = 4500;
 const LEAVES: u32 = 13;
 /// Diameter of a leaf relative to the picture's edge, of trees and of bushes: about as large as leaves on the scene's own trees are drawn.
 const LEAF: [f32; 2] = [0.008, 0.013];
+/// Room around the wood for leaves, in diameters of one.
+const ROOM: f32 = 8.5;
 /// Length and radii of the finest twigs relative to the picture's edge, and of how many places one has one; skeletons end
 /// before them.
 const TWIG: f32 = 0.05;
@@ -130,7 +132,15 @@ impl Painter {
         let leaves = skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf);
         let leaf_grid = LeafGrid::new(&leaves.map(|at| at.at_m).collect::<Vec<_>>());
         // Leaves stand out beyond the wood.
-        Self { random, scale: 0.92 / size.max_element(), crown, leaf_grid, leaf, hues, dabs: Vec::new() }
+        Self {
+            random,
+            scale: (1.0 - ROOM * leaf) / size.max_element(),
+            crown,
+            leaf_grid,
+            leaf,
+            hues,
+            dabs: Vec::new(),
+        }
     }
 
     /// Distance of a place from the crown's centre, 1 at its surface; and the direction.
@@ -248,7 +258,7 @@ mod tests {
             let highest = texels.iter().map(|(_, y, _)| *y).min().unwrap_or(SPRITE_SIZE);
             let is_cut = texels.iter().any(|(x, ..)| *x == 0 || *x == SPRITE_SIZE - 1);
             assert!(!is_cut && highest > 0, "tree {index} lies within its picture");
-            assert!(highest < SPRITE_SIZE / 5, "tree {index} begins {highest} down");
+            assert!(highest < SPRITE_SIZE / 4, "tree {index} begins {highest} down");
         }
     }
 

@@ -145,7 +145,7 @@ impl Renderer {
             self.shade_is_old = false;
         }
         let leaves = &world.leaves;
-        let visible = self.visible();
+        let visible = self.own_visible();
         let group =
             self.branches.bind(&self.device, world.branches.as_ref(), &self.tree_records, world.bed.as_ref());
         let casters = Casters {
@@ -153,7 +153,12 @@ impl Renderer {
             visible: &visible,
             has_twigs: self.quality.has_twig_shadows(),
             sides: frame.shadows.map(Sides::of),
-            woods: &self.woods(&group),
+            wood: (&self.bark, &group),
+            scenery: self
+                .near_trees
+                .as_ref()
+                .filter(|_| !self.cull.is_painted)
+                .map(|near| ((&near.bark, &near.branches), &near.visible)),
             objects: self.objects.as_ref().map(|(objects, _)| objects),
             others: &|pass, map| {
                 if let Some(blobs) = self.blobs() {
@@ -237,9 +242,14 @@ impl Renderer {
 
     /// Leaves that are drawn: nothing has a mark that is not simulated.
     fn visible(&self) -> Vec<&VisibleLeaves> {
-        let litter = (!self.cull.is_painted).then_some(&self.visible_litter);
         let near = self.near_trees.as_ref().filter(|_| !self.cull.is_painted).map(|near| &near.visible);
-        std::iter::once(&self.visible_leaves).chain(litter).chain(near).collect()
+        self.own_visible().into_iter().chain(near).collect()
+    }
+
+    /// The same without those of the park's nearest trees.
+    fn own_visible(&self) -> Vec<&VisibleLeaves> {
+        let litter = (!self.cull.is_painted).then_some(&self.visible_litter);
+        std::iter::once(&self.visible_leaves).chain(litter).collect()
     }
 
     /// Bark with the branches that it is moved with: of the scene's own trees, and of the park's nearest.

@@ -57,8 +57,10 @@ struct MapPass {
 pub(crate) struct Casters<'a> {
     pub(crate) species_table: &'a SpeciesTable,
     pub(crate) visible: &'a [&'a VisibleLeaves],
-    /// Bark, each moved with branches.
-    pub(crate) woods: &'a [(&'a BarkBuffers, &'a wgpu::BindGroup)],
+    /// Bark and leaves that only the sun's maps have: the shade map knows which part of the sky they hide.
+    pub(crate) scenery: Option<((&'a BarkBuffers, &'a wgpu::BindGroup), &'a VisibleLeaves)>,
+    /// Bark, and the branches that it is moved with.
+    pub(crate) wood: (&'a BarkBuffers, &'a wgpu::BindGroup),
     /// True if twigs cast shadows into the nearest map; in others they are far thinner than a texel.
     pub(crate) has_twigs: bool,
     /// Sides of the maps.
@@ -264,7 +266,9 @@ impl MapPass {
             multiview_mask: None,
         });
         pass.set_bind_group(0, &frame.group, &[]);
-        for (bark, branches) in casters.woods.iter().filter(|(bark, _)| !bark.trees.is_empty()) {
+        let scenery = casters.scenery.filter(|_| number < CASCADES as usize);
+        let woods = std::iter::once(casters.wood).chain(scenery.map(|(wood, _)| wood));
+        for (bark, branches) in woods.filter(|(bark, _)| !bark.trees.is_empty()) {
             pass.set_pipeline(&self.bark);
             bark.bind(&mut pass, branches);
             for indices in bark.seen(casters.sides[number], casters.has_twigs && number == 0) {
@@ -278,7 +282,7 @@ impl MapPass {
         (casters.others)(&mut pass, number);
         pass.set_pipeline(&self.leaves);
         pass.set_bind_group(2, &casters.species_table.group, &[]);
-        for leaves in casters.visible {
+        for leaves in casters.visible.iter().copied().chain(scenery.map(|(_, leaves)| leaves)) {
             leaves.draw(&mut pass, 0..LEVELS);
         }
     }

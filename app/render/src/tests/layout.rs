@@ -165,8 +165,9 @@ fn another_layout_is_noticed() {
 }
 
 /// Members of structs in buffers that are vectors with axes: colours, planes, directions and sizes.
-const WITH_AXES: [&str; 9] = [
+const WITH_AXES: [&str; 10] = [
     "ambient",
+    "corner_m",
     "palette",
     "sides",
     "path_lead",

@@ -14,6 +14,7 @@ mod look;
 mod motion;
 mod objects;
 mod particles;
+mod quality;
 mod ribbons;
 mod rooms;
 mod snow;
@@ -105,8 +106,13 @@ pub(super) fn disc_atlas(scene: &Scene, size_px: u32) -> Atlas {
 
 /// A bench for a scene with pictures of its own.
 pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> Bench {
+    bench_in(scene, scene_trees, atlas, Quality::Full)
+}
+
+/// The same for pictures of a quality.
+pub(crate) fn bench_in(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas, quality: Quality) -> Bench {
     let gpu = gpu();
-    let options = RendererOptions { litter_count: 0, tile_px: u32::MAX, quality: Quality::Full };
+    let options = RendererOptions { litter_count: 0, tile_px: u32::MAX, quality };
     let solids = solids_of(&scene).expect("shapes without files");
     let is_compiled = scene.leaves_burn() || scene.weather.is_some();
     let compiled = is_compiled.then(|| CompiledScene::compile(&scene).expect("a scene"));
@@ -281,7 +287,10 @@ fn painted_leaves_look_otherwise_and_leave_nothing_behind() {
 #[test]
 fn same_frame_gives_same_picture() {
     let mut bench = bench(|_| {});
-    assert_eq!(bench.draw(2, 0.3, 1.5), bench.draw(2, 0.3, 1.5), "nothing random in a frame");
+    let picture = bench.draw(2, 0.3, 1.5);
+    assert_eq!(bench.draw(2, 0.3, 1.5), picture, "nothing random in a frame");
+    bench.renderer.set_split_scene(true);
+    assert_eq!(bench.draw(2, 0.3, 1.5), picture, "nor does a pass for each part change it");
 }
 
 #[test]

@@ -220,7 +220,8 @@ fn snow_lies_on_leaves_that_hang() {
     let hanging = bare.pixels().zip(white.pixels()).zip(falling.pixels().zip(falling_too.pixels()));
     let changed: Vec<_> = hanging.filter(|((a, b), (c, d))| a != b && c == d).map(|(pair, _)| pair).collect();
     let paler = changed.iter().filter(|(a, b)| colour(b) < colour(a)).count();
-    assert!(paler > 100 && paler * 10 > changed.len() * 8, "{paler} of {}", changed.len());
+    // Those that are seen from below only lose light.
+    assert!(paler > 100 && paler * 10 > changed.len() * 6, "{paler} of {}", changed.len());
 }
 
 /// A bed without snow, in some cells of which, by column and line, so much has melted in mm of water.
