@@ -172,12 +172,13 @@ fn pictures_are_as_they_were() {
 
 /// A break: its name, its case, and its edit.
 #[rustfmt::skip]
-const BREAKS: [(&str, &str, &str, &str); 17] = [
+const BREAKS: [(&str, &str, &str, &str); 18] = [
     ("sunlight is blue", "park", "frame.sun_color *", "frame.sun_color.bgr *"),
     ("samples lie in other quarters", "park-draft", "2 * quarter.y + quarter.x", "3 - 2 * quarter.y - quarter.x"),
     ("shadows are of no map", "park-plain", "coarser > FIRST_MAP", "coarser > CASCADES"),
     ("leaves face the other way", "storm", "let facing = dot(normal, light);", "let facing = dot(-normal, light);"),
-    ("leaves are whole squares", "storm", "in.air.rgb, alpha);", "in.air.rgb, 1.0);"),
+    ("leaves are whole squares", "storm", "let mask = covered(alpha, in.random);", "let mask = 15u;"),
+    ("far trees are whole squares", "motions", "let mask = covered(clamp((surface.a - 0.5) / rim + 0.5, 0.0, 1.0), random);", "let mask = 15u;"),
     ("no ambient light", "storm", "return Ambient(max(even + odd, vec3(0.0)),", "return Ambient(vec3(0.0),"),
     ("the picture is a third of a stop too bright", "storm", "lens.key * exp2(", "1.26 * lens.key * exp2("),
     ("the filmic curve has too much contrast", "storm", "const STOPS: f32 = 16.5f;", "const STOPS: f32 = 14.0f;"),

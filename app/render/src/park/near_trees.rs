@@ -24,7 +24,7 @@ const REACH_M: f32 = 42.0;
 const MOST: usize = 5;
 /// Leaves of a tree, each for several.
 const LEAVES: u32 = 1600;
-/// How far their autumn has come.
+/// Share of their autumn that has passed.
 const AUTUMN: f32 = 0.5;
 /// Different trees of a kind: others are the same ones turned.
 const INDIVIDUALS: u32 = 3;
@@ -85,7 +85,7 @@ impl NearTrees {
     ) -> Option<Self> {
         let grove = grove(scene, near);
         // A scene whose trees cannot be grown has none near: scenery is not worth an error.
-        let mut world = World::build(&grove).ok().filter(|world| world.leaves.place.len() > 0)?;
+        let mut world = World::build(&grove).ok().filter(|world| !world.leaves.place.is_empty())?;
         hide_fallen(&mut world.leaves.place);
         let scene_trees = SceneTrees::of(&grove, world.compiled.forest());
         let columns = [
@@ -127,7 +127,7 @@ fn grove(scene: &Scene, near: &[TreeInstance]) -> Scene {
         leaves: LEAVES,
         ..Tree::default()
     };
-    let ground = Ground { litter: None, ..scene.ground.clone() };
+    let ground = Ground { litter: None, ..scene.ground };
     Scene {
         species: scene.species.clone(),
         trees: (0..).zip(near).map(tree).collect(),

@@ -93,7 +93,7 @@ fn paint_tree(number: u32, leaves: f32) -> TreeSprite {
 
 /// Turns a tree by so many quarters about its foot.
 fn turn(skeleton: &mut Skeleton, quarters: u32) {
-    let turned = |at: Vec3| if quarters % 2 == 0 { at } else { Vec3::new(-at.z, at.y, at.x) };
+    let turned = |at: Vec3| if quarters.is_multiple_of(2) { at } else { Vec3::new(-at.z, at.y, at.x) };
     for segment in &mut skeleton.segments {
         (segment.start_m, segment.end_m) = (turned(segment.start_m), turned(segment.end_m));
     }

@@ -83,8 +83,9 @@ const SHARES: [f32; 12] = [1.0, 0.75, 0.56, 0.42, 0.32, 0.24, 0.18, 0.13, 0.09, 
 const MAX_CELLS: usize = 4096;
 
 /// Most blades of a frame: what the smallest binding that WebGPU allows can hold.
-const MAX_BLADES: u32 = (128 << 20) / BLADE_BYTES as u32;
+const MAX_BLADES: u32 = (128 << 20) / 32;
 const BLADE_BYTES: u64 = size_of::<GrassBlade>() as u64;
+const _: () = assert!(BLADE_BYTES * MAX_BLADES as u64 <= 128 << 20, "a binding of blades");
 /// Distance in bytes between the uniform blocks of two classes, which WebGPU asks for at most.
 const CLASS_STRIDE: u32 = 256;
 

@@ -164,7 +164,8 @@ fn an_object_is_drawn_along_its_way() {
     let apart = (blurred_column - column).hypot(blurred_row - row);
     assert!(apart < 0.5, "as far behind as ahead: the middle is {apart} px aside");
     let kept = blurred_light / light;
-    assert!((0.9..1.1).contains(&kept), "{kept} of its light");
+    // The woods behind it are not equally bright along its way.
+    assert!((0.85..1.15).contains(&kept), "{kept} of its light");
     assert!(second(0.02, 0.0) == second(0.0, 0.0), "one that is on no way stays sharp");
     let mut first = camera_at(0.02, |scene| roll(scene, 20.0));
     assert!(above_ground(&first.draw(0, 0.0, MIDDLE_S)) == sharp, "the first picture");

@@ -96,7 +96,7 @@ struct BarkSurface {
     radius_m: f32,
     height_m: f32,
     albedo: vec3<f32>,
-    // How open grooves are to the light, 1 on ridges; the same to the sun.
+    // Share of the sky that grooves see, 1 on ridges; the same of the sun.
     deep: f32,
     sunlit: f32,
     // Part of the sky that the crown leaves open, and samples of what else hides it.
