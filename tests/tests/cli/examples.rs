@@ -38,8 +38,13 @@ fn leaves_are_drawn_by_another_program() {
 #[test]
 fn a_whole_scene_is_drawn_into_another_programs_texture() {
     let picture = draw_scene::run(2).expect("it runs");
-    let (above, below) = (*picture.get_pixel(320, 4), *picture.get_pixel(320, 350));
-    assert!(above[2] > below[2], "sky over meadow: {above:?} and {below:?}");
+    let blue = |rows: std::ops::Range<u32>| {
+        let count = rows.len() as f64 * f64::from(picture.width());
+        let pixels = rows.flat_map(|y| (0..picture.width()).map(move |x| (x, y)));
+        pixels.map(|(x, y)| f64::from(picture.get_pixel(x, y)[2])).sum::<f64>() / count
+    };
+    let (above, below) = (blue(0..picture.height() / 2), blue(picture.height() / 4 * 3..picture.height()));
+    assert!(above > 1.2 * below, "sky between crowns over a meadow: {above} and {below} of blue");
     let colors: std::collections::BTreeSet<[u8; 4]> = picture.pixels().map(|pixel| pixel.0).collect();
     assert!(colors.len() > 2000, "trees, grass and leaves: {} colours", colors.len());
 }
