@@ -108,7 +108,8 @@ fn assert_scene(picture: &RgbaImage) {
         sum / count
     };
     let (sky, meadow) = (mean(0..60), mean(height - 60..height));
-    assert!(sky > 90 && meadow > 25 && sky > meadow, "sky {sky}, meadow {meadow}");
+    // A message stands before a part of the sky.
+    assert!(sky > 80 && meadow > 25 && sky > meadow, "sky {sky}, meadow {meadow}");
 }
 
 #[test]
