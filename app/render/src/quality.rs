@@ -8,7 +8,7 @@ pub enum Quality {
     /// To find one's way on any machine: trunks and limbs without twigs, far fewer and larger leaves far away, one coarse map of
     /// shadows, no blades of grass, and light for every four pixels.
     Plain,
-    /// The same things as in a full picture, with light for every four pixels: edges are as fine.
+    /// The same things as in a full picture, with light for every four pixels, softer shadows and fewer blades of grass: edges are as fine.
     Draft,
     /// Everything.
     #[default]
@@ -56,7 +56,7 @@ impl Quality {
         }
     }
 
-    /// True if twigs, blades of grass and glare are drawn.
+    /// True if twigs, the pictures of bark, blades of grass and glare are drawn, and near trees of the park grown.
     pub(crate) fn has_fine_parts(self) -> bool {
         self != Self::Plain
     }
@@ -64,11 +64,6 @@ impl Quality {
     /// True if twigs cast shadows.
     pub(crate) fn has_twig_shadows(self) -> bool {
         self == Self::Full
-    }
-
-    /// True if limbs are lit pixel by pixel, not only at their corners.
-    pub(crate) fn has_bark_pictures(self) -> bool {
-        self != Self::Plain
     }
 
     /// Factors on the distances from which the middle and the far bark of a tree will do.

@@ -37,7 +37,8 @@ pub(crate) struct Post {
 /// The passes, in their order.
 #[derive(Debug)]
 struct Passes {
-    samples: SamplePass,
+    /// None where samples are averaged to pixels.
+    samples: Option<SamplePass>,
     shutter: ShutterPass,
     focus: FocusPass,
     exposure: ExposurePass,
@@ -67,7 +68,7 @@ impl Post {
     ) -> Self {
         let group = LensGroup::new(device);
         let passes = Passes {
-            samples: SamplePass::new(device, &group),
+            samples: (targets.shading_px > 1).then(|| SamplePass::new(device, &group)),
             shutter: ShutterPass::new(device, &group),
             focus: FocusPass::new(device, &group),
             exposure: ExposurePass::new(device, &group),
@@ -123,8 +124,8 @@ impl Post {
         (tile, targets): (&Tile, &Targets),
         shot: &Shot,
     ) {
-        if let Some(samples) = &self.bound.samples {
-            self.passes.samples.draw(queue, encoder, &self.group, (samples, &targets.resolved), tile);
+        if let Some((pass, samples)) = self.passes.samples.as_ref().zip(self.bound.samples.as_ref()) {
+            pass.draw(queue, encoder, &self.group, (samples, &targets.resolved), tile);
         }
         if let Some(chain) = &self.bound.shutter {
             self.passes.shutter.take(queue, encoder, &self.group, chain, (tile, shot));
@@ -178,7 +179,7 @@ impl Bound {
         let light = focus.as_ref().map_or(light, |chain| &chain.result);
         let glare = passes.glare.chain(device, queue, light, targets.size);
         Self {
-            samples: passes.samples.bind(device, targets),
+            samples: passes.samples.as_ref().map(|pass| pass.bind(device, targets)),
             exposure: passes.exposure.bind(device, group, light),
             tonemap: passes.tonemap.bind(device, queue, light, &glare),
             glare,

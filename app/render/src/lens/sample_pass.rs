@@ -47,20 +47,18 @@ impl SamplePass {
         Self { pass: Fullscreen::new(device, lens, &layout, source, HDR_FORMAT, &[]), layout, uniform }
     }
 
-    /// The samples of `targets`; none where they are averaged to pixels.
-    pub(crate) fn bind(&self, device: &wgpu::Device, targets: &Targets) -> Option<wgpu::BindGroup> {
-        (targets.shading_px > 1).then(|| {
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("samples"),
-                layout: &self.layout,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
-                    wgpu::BindGroupEntry {
-                        binding: 1,
-                        resource: wgpu::BindingResource::TextureView(&targets.color),
-                    },
-                ],
-            })
+    /// The samples of `targets`, bound to become pixels.
+    pub(crate) fn bind(&self, device: &wgpu::Device, targets: &Targets) -> wgpu::BindGroup {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("samples"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
+                wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: wgpu::BindingResource::TextureView(&targets.color),
+                },
+            ],
         })
     }
 

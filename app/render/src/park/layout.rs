@@ -48,7 +48,7 @@ const FAR_M: f32 = 60.0;
 const LATE: f32 = 0.4;
 /// Largest share of a tree's picture that is cut off its foot.
 const MOST_CUT: f32 = 0.16;
-/// Least square of a tree's height among those of its height when it is old.
+/// Square of the height of the youngest trees, as a share of the square of the height that they come to.
 const YOUNGEST: f32 = 0.3;
 /// Phases the path's bends may have, in radians; the first that keeps clear of the sources' trees is taken.
 const PATH_PHASES: [f32; 6] = [-0.9, 2.2, 0.3, -2.0, 1.2, 3.4];

@@ -35,7 +35,8 @@ const IN_VIEW: f32 = 0.3;
 const COMMON: [TreePreset; 3] = [TreePreset::Maple, TreePreset::Birch, TreePreset::Oak];
 
 /// Parts the trees of a park into those that are grown, nearest first, and those that are painted: what a camera at `eye_m` that looks along
-/// `view`, a unit vector in the ground plane, has before it. All are painted where no species of the scene is that of a tree.
+/// `view`, a unit vector in the ground plane, has before it. All are painted where no species of the scene is that of a tree, and where it
+/// snows: the bed has no room for snow on trees that are not the scene's.
 pub(crate) fn part(
     scene: &Scene,
     trees: Vec<TreeInstance>,
@@ -46,7 +47,8 @@ pub(crate) fn part(
     let is_near = |tree: &TreeInstance| {
         let distance_m = offset(tree).length();
         let is_ahead = offset(tree).dot(view) > IN_VIEW * distance_m;
-        is_ahead && distance_m < REACH_M && preset_of(scene, tree).is_some()
+        let is_snowless = scene.weather.is_none();
+        is_snowless && is_ahead && distance_m < REACH_M && preset_of(scene, tree).is_some()
     };
     let (mut near, mut far): (Vec<_>, Vec<_>) = trees.into_iter().partition(is_near);
     near.sort_by(|a, b| offset(a).length().total_cmp(&offset(b).length()));
@@ -139,7 +141,7 @@ fn grove(scene: &Scene, near: &[TreeInstance]) -> Scene {
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::scene::{LeafShape, Species};
+    use windfall_core::scene::{LeafShape, Species, Weather};
 
     use super::*;
     use crate::park::tree_sprite::TREE_COUNT;
@@ -192,5 +194,8 @@ mod tests {
     fn without_leaves_of_trees_all_are_painted() {
         let (near, far) = part(&scene(LeafShape::Feather), row(), Vec3::ZERO, Vec2::NEG_Y);
         assert_eq!((near.len(), far.len()), (0, 11), "feathers grow on no tree");
+        let snowy = Scene { weather: Some(Weather::default()), ..scene(LeafShape::Maple) };
+        let (near, _) = part(&snowy, row(), Vec3::ZERO, Vec2::NEG_Y);
+        assert!(near.is_empty(), "snow would lie on none of them");
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One frame: which pass follows which.
+//! One frame: which pass follows which, in one place since each takes what those before it leave.
 
 use glam::Vec3;
 use windfall_wgpu::{LeafColumns, WorldColumns};

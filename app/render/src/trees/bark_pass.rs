@@ -49,7 +49,7 @@ impl BarkPass {
             .build(device)
         };
         Self {
-            limbs: quality.has_bark_pictures().then(|| pipeline("limbs", &limb_shader, true)),
+            limbs: quality.has_fine_parts().then(|| pipeline("limbs", &limb_shader, true)),
             twigs: pipeline("twigs", &twig_shader, true),
             // Outer sides are turned round in a mirror.
             mirrored: pipeline("mirrored bark", &twig_shader, false),
