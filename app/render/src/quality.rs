@@ -66,6 +66,11 @@ impl Quality {
         self == Self::Full
     }
 
+    /// True if haze has shafts of light.
+    pub(crate) fn has_shafts(self) -> bool {
+        self == Self::Full
+    }
+
     /// Factors on the distances from which the middle and the far bark of a tree will do.
     pub(crate) fn bark_distances(self) -> [f32; 2] {
         match self {

@@ -25,6 +25,8 @@ override HAS_SNOW: bool = false;
 // First map of the sun's shadows that is drawn, and samples of it: 1, 2 or 4.
 override FIRST_MAP: u32 = 0u;
 override SHADOW_TAPS: u32 = 4u;
+// Haze has shafts of light.
+override HAS_SHAFTS: bool = false;
 // Samples of the sky overhead.
 override SKY_TAPS: u32 = 6u;
 

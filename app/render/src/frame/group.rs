@@ -114,7 +114,7 @@ impl FrameGroup {
     }
 
     /// Values of the overrides of every module that binds the group.
-    pub(crate) fn overrides(&self) -> [(&'static str, f64); 8] {
+    pub(crate) fn overrides(&self) -> [(&'static str, f64); 9] {
         let of = |is: bool| f64::from(u8::from(is));
         let Standing { objects, fire_lights, snow, .. } = self.standing;
         [
@@ -124,6 +124,7 @@ impl FrameGroup {
             ("FIRE_LIGHTS", fire_lights.into()),
             ("HAS_SNOW", of(snow)),
             ("FIRST_MAP", self.quality.first_shadow_map().into()),
+            ("HAS_SHAFTS", of(self.quality.has_shafts())),
             ("SHADOW_TAPS", self.quality.shadow_taps().into()),
             ("SKY_TAPS", self.quality.sky_taps().into()),
         ]

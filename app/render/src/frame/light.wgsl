@@ -19,6 +19,9 @@
 // The sky without its sun as surfaces mirror it, rougher from level to level.
 @group(1) @binding(9) var mirrored_sky: texture_2d<f32>;
 
+// Mean share of sunlight that reaches the air between the eye and a place, by the place in the view and the distance.
+@group(1) @binding(11) var sunlit_air: texture_3d<f32>;
+
 // Sunlight that reaches a place past what one shadow map holds: four taps that are turned from place to place.
 fn map_shadow(map: u32, clip: vec3<f32>, turn: vec2<f32>) -> f32 {
     let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
@@ -197,6 +200,30 @@ fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
     return textureSampleLevel(sky_map, sky_sampler, sky_place(direction), 0.0).rgb;
 }
 
+// Asymmetry of the light that haze scatters: most goes on ahead.
+const HAZE_ASYMMETRY: f32 = 0.70;
+
+// Share of direct sunlight in the light of haze that is seen in a direction: the sun's by its phase function (Henyey and Greenstein,
+// 1941), that of the sky from all around.
+fn direct_share(direction: vec3<f32>) -> vec3<f32> {
+    let g = HAZE_ASYMMETRY;
+    let base = 1.0 + g * g - 2.0 * g * dot(direction, frame.sun_direction);
+    let direct = frame.sun_color * ((1.0 - g * g) / (4.0 * base * sqrt(base)));
+    return direct / (direct + 0.282095 * frame.ambient[0].rgb + 1.0e-6);
+}
+
+// Share of haze's light that trees and hills leave to the first `SHAFT_REACH_M` metres of a ray from the eye, or to all of it.
+fn shaft_light(ray: vec3<f32>, distance_m: f32) -> vec3<f32> {
+    if !HAS_SHAFTS {
+        return vec3(1.0);
+    }
+    let ahead = max(dot(ray, frame.forward), 1.0e-3);
+    let place = vec2(dot(ray, frame.right) / dot(frame.right, frame.right), dot(ray, frame.up) / dot(frame.up, frame.up)) / ahead;
+    let slice = sqrt(min(distance_m / SHAFT_REACH_M, 1.0));
+    let sunlit = textureSampleLevel(sunlit_air, clamp_sampler, vec3(place * vec2(0.5, -0.5) + 0.5, slice), 0.0).r;
+    return 1.0 - direct_share(ray / max(distance_m, 1.0e-4)) * (frame.shaft_share * (1.0 - sunlit));
+}
+
 // The air between the eye and a surface at `position`: light that it adds (rgb) and share that it lets through (a). It is
 // as bright as the sky above the horizon, since that is what haze without end looks like.
 fn air_before(position: vec3<f32>) -> vec4<f32> {
@@ -210,7 +237,9 @@ fn air_before(position: vec3<f32>) -> vec4<f32> {
     let mean = select((exp(-low) - exp(-high)) / span, exp(-low), abs(span) < 1.0e-3);
     let veil = 1.0 - exp(-distance_m * frame.haze_per_m * mean);
     let level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.4 + 0.05, direction.z));
-    return vec4(veil * sky_reflection(level, LEAST_ROUGHNESS), 1.0 - veil);
+    let near_veil = 1.0 - exp(-min(distance_m, SHAFT_REACH_M) * frame.haze_per_m * mean);
+    let glow = near_veil * shaft_light(ray, distance_m) + (veil - near_veil);
+    return vec4(glow * sky_reflection(level, LEAST_ROUGHNESS), 1.0 - veil);
 }
 
 // Light from a surface at `position` as it reaches the eye.

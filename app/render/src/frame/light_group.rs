@@ -5,6 +5,7 @@
 use super::fire_light;
 use super::noise::{NOISE_SIZE, noise_mips};
 use super::sky_texture::radiance_texture;
+use super::sunlit_air;
 use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
 use crate::gpu::upload;
 use crate::light::{Daylight, prefiltered};
@@ -14,8 +15,11 @@ use crate::light::{Daylight, prefiltered};
 pub(crate) struct LightGroup {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
-    /// Shadow maps, shade map, noise and snow map.
-    views: [(u32, wgpu::TextureView); 4],
+    /// The same group without the sunlit air, for the pass that finds it.
+    pub(crate) without_air: wgpu::BindGroup,
+    no_air: wgpu::TextureView,
+    /// Shadow maps, shade map, noise, snow map and sunlit air.
+    views: [(u32, wgpu::TextureView); 5],
     skies: [wgpu::TextureView; 2],
     /// Lights of fires.
     pub(crate) fires: wgpu::Buffer,
@@ -26,7 +30,7 @@ impl LightGroup {
     pub(crate) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        shadow_maps: &wgpu::TextureView,
+        [shadow_maps, sunlit_air]: [&wgpu::TextureView; 2],
         [shade_map, snow_map]: [&wgpu::TextureView; 2],
         daylight: &Daylight,
     ) -> Self {
@@ -45,6 +49,7 @@ impl LightGroup {
                 sampler_entry(8, wgpu::SamplerBindingType::Filtering),
                 texture_entry(9, FILTERABLE, flat),
                 uniform_entry(10),
+                texture_entry(11, FILTERABLE, wgpu::TextureViewDimension::D3),
             ],
         });
         let linear = wgpu::SamplerDescriptor {
@@ -64,11 +69,13 @@ impl LightGroup {
             (8, device.create_sampler(&around)),
         ];
         let noise = noise_view(device, queue);
-        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise), (6, snow_map.clone())];
+        let views = [(0, shadow_maps), (2, shade_map), (4, &noise), (6, snow_map), (11, sunlit_air)]
+            .map(|(binding, view)| (binding, view.clone()));
         let skies = skies(device, queue, daylight);
         let fires = fire_light::buffer(device);
-        let group = bind(device, &layout, (&views, &fires), &samplers, &skies);
-        Self { layout, group, views, skies, fires, samplers }
+        let no_air = sunlit_air::grid(device, false);
+        let [group, without_air] = bind(device, &layout, (&views, &no_air, &fires), &samplers, &skies);
+        Self { layout, group, without_air, no_air, views, skies, fires, samplers }
     }
 
     /// Takes over another sky.
@@ -84,7 +91,8 @@ impl LightGroup {
     }
 
     fn rebind(&mut self, device: &wgpu::Device) {
-        self.group = bind(device, &self.layout, (&self.views, &self.fires), &self.samplers, &self.skies);
+        [self.group, self.without_air] =
+            bind(device, &self.layout, (&self.views, &self.no_air, &self.fires), &self.samplers, &self.skies);
     }
 }
 
@@ -96,23 +104,32 @@ fn skies(device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) -> [wg
         .map(|(label, levels)| radiance_texture(device, queue, label, &levels))
 }
 
+/// The group with the last of the views, and with `no_air` in its place.
 fn bind(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
-    (views, fires): (&[(u32, wgpu::TextureView)], &wgpu::Buffer),
+    (views, no_air, fires): (&[(u32, wgpu::TextureView); 5], &wgpu::TextureView, &wgpu::Buffer),
     samplers: &[(u32, wgpu::Sampler)],
     [seen, mirrored]: &[wgpu::TextureView; 2],
-) -> wgpu::BindGroup {
+) -> [wgpu::BindGroup; 2] {
     let view =
         |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
     let samplers = samplers.iter().map(|(binding, sampler)| wgpu::BindGroupEntry {
         binding: *binding,
         resource: wgpu::BindingResource::Sampler(sampler),
     });
-    let fixed = views.iter().map(|(binding, texture)| view(*binding, texture));
+    let [fixed @ .., (air_binding, air)] = views;
+    let fixed = fixed.iter().map(|(binding, texture)| view(*binding, texture));
     let fires = wgpu::BindGroupEntry { binding: 10, resource: fires.as_entire_binding() };
-    let entries: Vec<_> = fixed.chain([view(7, seen), view(9, mirrored), fires]).chain(samplers).collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
+    let shared: Vec<_> = fixed.chain([view(7, seen), view(9, mirrored), fires]).chain(samplers).collect();
+    [air, no_air].map(|air| {
+        let entries = [&shared[..], &[view(*air_binding, air)]].concat();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("light"),
+            layout,
+            entries: &entries,
+        })
+    })
 }
 
 fn noise_view(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {

@@ -12,6 +12,7 @@ pub(crate) mod noise;
 pub(crate) mod scene_pipeline;
 pub(crate) mod sides;
 pub(crate) mod sky_texture;
+pub(crate) mod sunlit_air;
 pub(crate) mod surroundings;
 
 use windfall_core::layout::WgslStruct;
@@ -26,6 +27,7 @@ pub(crate) fn shaders() -> Shaders {
     let lists = [
         cascades::wgsl_constants(),
         fire_light::wgsl_constants(),
+        sunlit_air::wgsl_constants(),
         surroundings::wgsl_constants(),
         light::wgsl_constants(),
     ];

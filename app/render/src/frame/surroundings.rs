@@ -11,6 +11,7 @@ use windfall_core::{shared_constants, shared_struct};
 
 use super::cascades::{MAPS, above, cascades};
 use super::input::FrameInput;
+use super::sunlit_air::is_seen;
 use crate::gpu::tile::Tile;
 use crate::light::{Daylight, MapError, SphericalHarmonics};
 
@@ -28,7 +29,7 @@ const VISIBILITY_DEPTH: f32 = 3.912;
 
 shared_struct! {
     /// Camera, sun and air of a frame. Light is in kcd/m².
-    pub(crate) struct FrameUniform, padding 4 {
+    pub(crate) struct FrameUniform {
         /// World to clip space.
         pub(crate) view_projection: [[f32; 4]; 4],
         /// World to the sun's clip space, for the slices of the view from near to far; then to that of the map from above.
@@ -90,6 +91,8 @@ shared_struct! {
         pub(crate) snow_per_m: [f32; 2],
         /// First word of the snow on branches in the buffer of the bed; 0 without any.
         pub(crate) branch_snow_word: u32,
+        /// 1 where haze has shafts of light in this view, else 0.
+        pub(crate) shaft_share: f32,
     }
 }
 
@@ -113,6 +116,7 @@ impl FrameUniform {
         }
         self.view_projection = matrix;
         self.eye_m[1] = 2.0 * water_m - self.eye_m[1];
+        self.shaft_share = 0.0;
         for axis in [&mut self.right, &mut self.up, &mut self.forward] {
             axis[1] = -axis[1];
         }
@@ -160,6 +164,11 @@ impl Surroundings {
     pub(crate) fn of(daylight: Daylight, haze: Haze, park_center: Vec3, path: Path) -> Self {
         let ambient = SphericalHarmonics::of(&daylight.sky).white_surface();
         Self { daylight, ambient, haze, park_center, path }
+    }
+
+    /// True if the haze shows shafts of light.
+    pub(crate) fn has_shafts(&self) -> bool {
+        is_seen(VISIBILITY_DEPTH / self.haze.visibility_m, self.daylight.sun.illuminance.max_element())
     }
 
     /// The uniform block of a tile of a picture of `size` shaded pixels with shadow maps of `map_px` texels along an edge.
@@ -215,7 +224,7 @@ impl Surroundings {
             snow_corner_m: [0.0; 2],
             snow_per_m: [0.0; 2],
             branch_snow_word: 0,
-            padding: [0; 4],
+            shaft_share: f32::from(u8::from(self.has_shafts())),
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::Vec3;
 use windfall_wgpu::{LeafColumns, WorldColumns};
 
 use super::Renderer;
-use super::timed::{SCENE_PARTS, ScenePart, TIMED_PARTS, TIMED_POSTS, TIMED_SCENE};
+use super::timed::{SCENE_PARTS, ScenePart, TIMED_PARTS, TIMED_POSTS, TIMED_SCENE, TIMED_SHAFTS};
 use crate::camera::{Camera, NEAR_M};
 use crate::frame::group::FrameGroup;
 use crate::frame::input::FrameInput;
@@ -173,6 +173,10 @@ impl Renderer {
             self.cull_leaves(encoder, world, LeafView::Shadow(map));
         };
         self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters, &cull_for);
+        if let Some(shafts) = self.sun_shafts.as_ref().filter(|_| self.surroundings.has_shafts()) {
+            let writes = timer.map(|timer| timer.compute_writes(TIMED_SHAFTS));
+            shafts.fill(encoder, (&self.frame, &self.light), writes);
+        }
         if let Some(water) = &self.water_pass {
             self.cull_leaves(encoder, world, LeafView::Mirror);
             self.light_leaves(encoder, &water.frame);

@@ -18,6 +18,7 @@ use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
 use crate::frame::group::{FrameGroup, Standing};
 use crate::frame::light_group::LightGroup;
+use crate::frame::sunlit_air;
 use crate::frame::surroundings::{Path, Surroundings};
 use crate::gpu::targets::Targets;
 use crate::gpu::timing::GpuTimer;
@@ -53,6 +54,7 @@ use crate::scenery::snow_map::SnowMap;
 use crate::scenery::snow_pass::SnowPass;
 use crate::scenery::water_pass::WaterPass;
 use crate::shadows::ShadowPass;
+use crate::shadows::sun_shafts::SunShafts;
 use crate::trees::SceneTrees;
 use crate::trees::bark_mesh::BarkBuffers;
 use crate::trees::bark_pass::BarkPass;
@@ -88,6 +90,7 @@ pub struct Renderer {
     branches: BranchGroup,
     objects: Option<(ObjectBuffers, ObjectPass)>,
     shadow_pass: ShadowPass,
+    sun_shafts: Option<SunShafts>,
     shade_pass: ShadePass,
     shade_is_old: bool,
     bark_pass: BarkPass,
@@ -188,7 +191,11 @@ impl Renderer {
         frame.set_sun(queue, &land, surroundings.daylight.sun.direction);
         let snow_map = SnowMap::new(device, queue, snow);
         let from_above = [&shade_pass.map, &snow_map.view];
-        let light = LightGroup::new(device, queue, &shadow_pass.maps, from_above, &surroundings.daylight);
+        let sunlit_air = sunlit_air::grid(device, options.quality.has_shafts());
+        let from_sun = [&shadow_pass.maps, &sunlit_air];
+        let light = LightGroup::new(device, queue, from_sun, from_above, &surroundings.daylight);
+        let sun_shafts =
+            options.quality.has_shafts().then(|| SunShafts::new(device, &frame, &light, &sunlit_air));
         let objects = objects.map(|objects| {
             let pass = ObjectPass::new(device, &frame, &light, &objects);
             (objects, pass)
@@ -255,6 +262,7 @@ impl Renderer {
             branches,
             objects,
             shadow_pass,
+            sun_shafts,
             shade_pass,
         };
         renderer.make_trails(scene.view.trail_s);

@@ -5,9 +5,10 @@
 use crate::lens::post::TimedPosts;
 
 /// Passes that are timed, in order of drawing: the scene as a whole or in its parts.
-pub(super) const TIMED_PASSES: [&str; 16] = [
+pub(super) const TIMED_PASSES: [&str; 17] = [
     "particle order",
     "shadows",
+    "shafts",
     "scene",
     "objects",
     "leaves",
@@ -23,12 +24,13 @@ pub(super) const TIMED_PASSES: [&str; 16] = [
     "glare",
     "tone map",
 ];
-/// Number of the whole scene among them, and of the first of its parts.
-pub(super) const TIMED_SCENE: u32 = 2;
-pub(super) const TIMED_PARTS: u32 = 3;
+/// Numbers of the shafts of light, of the whole scene, and of the first of its parts among them.
+pub(super) const TIMED_SHAFTS: u32 = 2;
+pub(super) const TIMED_SCENE: u32 = 3;
+pub(super) const TIMED_PARTS: u32 = 4;
 /// Numbers of those after the scene.
 pub(super) const TIMED_POSTS: TimedPosts =
-    TimedPosts { shutter: 11, focus: 12, exposure: 13, glare: 14, tone_map: 15 };
+    TimedPosts { shutter: 12, focus: 13, exposure: 14, glare: 15, tone_map: 16 };
 
 /// Parts of the scene.
 #[derive(Clone, Copy, Debug)]

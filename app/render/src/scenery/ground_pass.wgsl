@@ -46,18 +46,23 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let grain = ground_grain(at);
     let hill = hills_at(at);
     let normal = normalize(vec3(-hill.y, 1.0, -hill.z));
-    let grass = meadow(at, clamp(log2(distance_m * 0.02), 0.0, 5.0));
+    let grass = sward(at, clamp(log2(distance_m * 0.02), 0.0, 5.0));
     // Between the blades near by one sees thatch; far away only the blades' tips.
     let far = smoothstep(5.0, 26.0, distance_m);
-    let thatch = mix(vec3(0.055, 0.050, 0.022), grass.rgb * 0.55, 0.55);
-    var albedo = mix(thatch, grass.rgb, far);
+    let thatch = mix(vec3(0.055, 0.050, 0.022), grass.albedo * 0.55, 0.55);
+    var albedo = mix(thatch, grass.albedo, far);
     albedo *= 1.0 + dot(grain.xy, vec2(1.1, 0.8));
     let rise = length(hill.yz);
     let bare = bare_soil(at, in.world.y, rise);
     let above_water_m = in.world.y - land.water_m;
     albedo = mix(albedo, soil_albedo(grain, above_water_m), bare);
     var path = path_share(at, distance_m);
-    albedo = mix(albedo, gravel_albedo(grain, above_water_m), path);
+    // Feet keep the middle of the path firm and pale; along its edges crumbs of soil lie.
+    let within_m = -beyond_path(at);
+    let firm = smoothstep(0.1, 0.7, within_m + 0.5 * grain.y);
+    let crumbs = 1.0 - smoothstep(0.0, 0.14, abs(within_m + 0.02) + 0.25 * grain.y);
+    albedo = mix(albedo, gravel_albedo(grain, above_water_m) * mix(0.72, 1.06, firm), path);
+    albedo = mix(albedo, 0.7 * soil_albedo(grain, above_water_m), 0.75 * crumbs);
     let pixel_m = max(length(dpdx(at)), length(dpdy(at)));
     let paved = paved_share(at, pixel_m);
     if paved > 0.0 {
@@ -79,7 +84,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     albedo = mix(albedo, vec3(0.84, 0.86, 0.88), snowy);
 
     // The path lies as high as the leaves on it do: their shadows touch them.
-    let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
+    var sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
+    let open_ground = max(path, bare);
+    sun *= mix(mix(1.0, tuft_light(at), far), grain_relief(at), open_ground);
+    // Grass along the path shades its edge.
+    let toward_sun = frame.sun_direction.xz * (1.2 * SWARD_M / max(frame.sun_direction.y, 0.12));
+    sun *= 1.0 - 0.7 * path * (1.0 - paved) * smoothstep(-0.04, 0.06, beyond_path(at + toward_sun));
     // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.
     let view = normalize(frame.eye_m - in.world);
     let against = pow(max(dot(-view, frame.sun_direction), 0.0), 3.0);

@@ -14,7 +14,9 @@ fn beyond_path(at: vec2<f32>) -> f32 {
     let along = dot(local, lead);
     let aside = dot(local, vec2(-lead.y, lead.x));
     let ragged = textureSampleLevel(noise, repeat_sampler, at * 0.23, 0.0).g - 0.5;
-    return abs(aside - PATH_BEND_M * sin(along * PATH_BEND_RAD_M + frame.path_phase_rad)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
+    let frayed = textureSampleLevel(noise, repeat_sampler, at * 1.1, 0.0).r - 0.5;
+    let middle = PATH_BEND_M * sin(along * PATH_BEND_RAD_M + frame.path_phase_rad);
+    return abs(aside - middle) - PATH_HALF_WIDTH_M + 0.35 * ragged + 0.22 * frayed;
 }
 
 // Share of paving in a pixel of some width in metres; none beyond its edge.
@@ -46,19 +48,61 @@ fn paving(at: vec2<f32>, pixel_m: f32) -> vec3<f32> {
     return mix(tint * tone, vec3(0.070, 0.066, 0.052), 0.85 * joint);
 }
 
-// Grass albedo (rgb) and dryness (a) at a place on the ground.
-fn meadow(at: vec2<f32>, lod: f32) -> vec4<f32> {
+// Plants of the meadow at a place.
+struct Sward {
+    // Albedo of their blades.
+    albedo: vec3<f32>,
+    // Share of blades that are dry.
+    dry: f32,
+    // Height of blades relative to the mean of a mown lawn.
+    height: f32,
+    // Shares of clover and of moss among them.
+    clover: f32,
+    moss: f32,
+    // Share of stalks that stand above the blades.
+    stalks: f32,
+}
+
+// Width of the strip along the path that is mown short, in metres.
+const MOWN_M: f32 = 0.8;
+
+fn sward(at: vec2<f32>, lod: f32) -> Sward {
     let wide = textureSampleLevel(noise, repeat_sampler, at * 0.011, lod).r;
     let patches = textureSampleLevel(noise, repeat_sampler, at * 0.063 + 0.37, lod).g;
+    let tufts = textureSampleLevel(noise, repeat_sampler, at * 0.27, max(lod - 0.5, 0.0)).rg;
+    let other = textureSampleLevel(noise, repeat_sampler, at * 0.19 + 0.71, max(lod - 1.0, 0.0)).rg;
     // Knolls dry out, hollows stay moist.
     let hill = hills_at(at);
-    let dry = clamp(0.28 + 1.3 * (wide - 0.5) + 1.2 * (patches - 0.5) - 0.35 * hill.w, 0.0, 1.0);
-    let lush = vec3(0.066, 0.115, 0.028);
-    let straw = vec3(0.205, 0.180, 0.076);
-    // Clover and moss, darker than grass.
-    let other = textureSampleLevel(noise, repeat_sampler, at * 0.17 + 0.71, max(lod - 1.0, 0.0)).g;
-    let green = mix(lush, vec3(0.040, 0.085, 0.030), 0.8 * smoothstep(0.56, 0.70, other));
-    return vec4(mix(green, straw, dry * 0.75) * (0.85 + 0.5 * (patches - 0.5)), dry);
+    var out: Sward;
+    out.dry = clamp(0.26 + 1.5 * (wide - 0.5) + 1.3 * (patches - 0.5) - 0.35 * hill.w, 0.0, 1.0);
+    out.clover = 0.85 * smoothstep(0.62, 0.80, other.y + 0.3 * (tufts.y - 0.5));
+    out.moss = smoothstep(0.62, 0.74, other.x + 0.2 * (tufts.y - 0.5) + 0.12 * hill.w) * (1.0 - out.clover);
+    let mown = 1.0 - smoothstep(0.3 * MOWN_M, MOWN_M, beyond_path(at));
+    let unmown = (1.0 - mown) * (1.0 - out.clover) * (1.0 - out.moss);
+    out.height = mix(0.55, 2.1, smoothstep(0.36, 0.78, tufts.x)) * mix(0.8, 1.25, smoothstep(0.4, 0.65, patches));
+    out.height = mix(out.height, 0.55, max(0.8 * mown, max(0.55 * out.clover, out.moss)));
+    out.stalks = 0.035 * smoothstep(0.42, 0.70, patches + 0.3 * (tufts.y - 0.5)) * unmown;
+    // Young grass after rain is yellower than the old in tufts, which goes to blue.
+    let young = vec3(0.086, 0.130, 0.027);
+    let old = vec3(0.050, 0.096, 0.032);
+    let straw = vec3(0.210, 0.178, 0.078);
+    var green = mix(young, old, smoothstep(0.35, 0.68, tufts.x));
+    green = mix(green, vec3(0.048, 0.092, 0.030), 0.9 * out.clover);
+    green = mix(green, vec3(0.105, 0.118, 0.022), 0.85 * out.moss);
+    let dead = out.dry * (1.0 - 0.7 * out.clover) * (1.0 - 0.8 * out.moss) * (1.0 - 0.4 * mown);
+    out.albedo = mix(green, straw, dead * 0.75) * (0.85 + 0.6 * (patches - 0.5) + 0.5 * (tufts.y - 0.5));
+    return out;
+}
+
+// Distance in metres over which a tuft shades the grass behind it where the sun is low.
+const TUFT_SHADE_M: f32 = 0.16;
+
+// Sunlight that taller tufts towards the sun let through to the grass at a place, relative to the mean.
+fn tuft_light(at: vec2<f32>) -> f32 {
+    let toward = frame.sun_direction.xz;
+    let here = textureSampleLevel(noise, repeat_sampler, at * 0.27, 0.5).r;
+    let before = textureSampleLevel(noise, repeat_sampler, (at + TUFT_SHADE_M * toward) * 0.27, 0.5).r;
+    return clamp(1.0 - 4.5 * (before - here), 0.25, 1.5);
 }
 
 // Fine and coarse grains and specks of bare ground at a place, about zero.
@@ -68,6 +112,14 @@ fn ground_grain(at: vec2<f32>) -> vec3<f32> {
         textureSample(noise, repeat_sampler, at * 0.17 + 0.2).a,
         textureSample(noise, repeat_sampler, at * 1.7 + 0.6).b,
     ) - 0.5;
+}
+
+// Light on grains of bare ground relative to that on smooth ground: they slope towards the sun or away from it.
+fn grain_relief(at: vec2<f32>) -> f32 {
+    let toward = frame.sun_direction.xz / max(frame.sun_direction.y, 0.25);
+    let fine = textureSample(noise, repeat_sampler, at * 0.9).b - textureSample(noise, repeat_sampler, (at + 0.006 * toward) * 0.9).b;
+    let coarse = textureSample(noise, repeat_sampler, at * 0.31).b - textureSample(noise, repeat_sampler, (at + 0.018 * toward) * 0.31).b;
+    return clamp(1.0 + 2.6 * fine + 1.8 * coarse, 0.3, 1.9);
 }
 
 // Albedo of bare soil of some grain at a height above the water: moist near it.

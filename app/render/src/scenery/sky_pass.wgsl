@@ -74,5 +74,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
         let seen = mix(wood, level, mix(0.90, 0.80, near));
         color = mix(color, seen, smoothstep(pixel, -pixel, slope - top));
     }
+    // Air that trees shade adds less to it.
+    let air = air_before(frame.eye_m + SHAFT_REACH_M * direction);
+    color *= mix(vec3(1.0), shaft_light(direction * SHAFT_REACH_M, SHAFT_REACH_M), 1.0 - air.a);
     return vec4(color, 1.0);
 }

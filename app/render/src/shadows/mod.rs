@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws the shadows of leaves, trees and objects, finer near the camera than far from it, and what hides the sky from above.
 
+pub(crate) mod sun_shafts;
+
 use std::fmt;
 
 use crate::frame::cascades::{CASCADES, MAPS};
@@ -21,7 +23,7 @@ use crate::trees::branch_group::BranchGroup;
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::leaves::shaders();
     shaders.extend(crate::objects::own_shaders());
-    shaders.extend(wgsl_files!("shadows": "leaf_shadow", "bark_shadow", "object_shadow"));
+    shaders.extend(wgsl_files!("shadows": "leaf_shadow", "bark_shadow", "object_shadow", "sun_shafts"));
     shaders
 }
 
