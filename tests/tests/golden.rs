@@ -172,7 +172,7 @@ fn pictures_are_as_they_were() {
 
 /// A break: its name, its case, and its edit.
 #[rustfmt::skip]
-const BREAKS: [(&str, &str, &str, &str); 18] = [
+const BREAKS: [(&str, &str, &str, &str); 20] = [
     ("sunlight is blue", "park", "frame.sun_color *", "frame.sun_color.bgr *"),
     ("samples lie in other quarters", "park-draft", "2 * quarter.y + quarter.x", "3 - 2 * quarter.y - quarter.x"),
     ("shadows are of no map", "park-plain", "coarser > FIRST_MAP", "coarser > CASCADES"),
@@ -183,6 +183,8 @@ const BREAKS: [(&str, &str, &str, &str); 18] = [
     ("the picture is a third of a stop too bright", "storm", "lens.key * exp2(", "1.26 * lens.key * exp2("),
     ("the filmic curve has too much contrast", "storm", "const STOPS: f32 = 16.5f;", "const STOPS: f32 = 14.0f;"),
     ("Reinhard without white", "dusk", "(1.0 + bright / (white * white))", "1.0"),
+    ("haze has no shafts of light", "dusk", "sunlit += share * sun_at(at);", "sunlit += share;"),
+    ("grass is of one height", "park", "out.height = mix(out.height, 0.55, ", "out.height = mix(0.6, 0.55, "),
     ("glare four times too strong", "dusk", "color += lens.glare_strength *", "color += 4.0 * lens.glare_strength *"),
     ("fires light nothing", "bonfire", "sum += fire.intensity * (facing / squared);", "sum += vec3(0.0);"),
     ("flames are four times too bright", "bonfire", "(row.opacity * share *", "(4.0 * row.opacity * share *"),

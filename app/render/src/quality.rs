@@ -66,7 +66,7 @@ impl Quality {
         self == Self::Full
     }
 
-    /// True if haze has shafts of light.
+    /// True if haze has shafts of light: they take a pass of their own over a grid of the air.
     pub(crate) fn has_shafts(self) -> bool {
         self == Self::Full
     }

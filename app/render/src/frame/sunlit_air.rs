@@ -39,7 +39,20 @@ pub(crate) fn grid(device: &wgpu::Device, is_used: bool) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// True if haze of an optical depth per metre shows shafts of light.
+/// Returns true if haze of an optical depth per metre shows shafts of light.
 pub(crate) fn is_seen(haze_per_m: f32, sun_illuminance: f32) -> bool {
     sun_illuminance > 0.0 && 1.0 - (-haze_per_m * SHAFT_REACH_M).exp() > LEAST_VEIL
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shafts_need_haze_and_a_sun() {
+        let haze_per_m = |visibility_m: f32| 3.912 / visibility_m;
+        assert!(is_seen(haze_per_m(900.0), 10.0), "a hazy evening");
+        assert!(!is_seen(haze_per_m(50_000.0), 10.0), "clear air");
+        assert!(!is_seen(haze_per_m(900.0), 0.0), "no sun");
+    }
 }

@@ -85,11 +85,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
 
     // The path lies as high as the leaves on it do: their shadows touch them.
     var sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
-    let open_ground = max(path, bare);
-    sun *= mix(mix(1.0, tuft_light(at), far), grain_relief(at), open_ground);
+    // Snow levels out grains and tufts.
+    let relief = mix(mix(1.0, tuft_light(at), far), grain_relief(at), max(path, bare));
+    sun *= mix(relief, 1.0, snowy);
     // Grass along the path shades its edge.
     let toward_sun = frame.sun_direction.xz * (1.2 * SWARD_M / max(frame.sun_direction.y, 0.12));
-    sun *= 1.0 - 0.7 * path * (1.0 - paved) * smoothstep(-0.04, 0.06, beyond_path(at + toward_sun));
+    sun *= 1.0 - 0.7 * path * (1.0 - paved) * (1.0 - snowy) * smoothstep(-0.04, 0.06, beyond_path(at + toward_sun));
     // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.
     let view = normalize(frame.eye_m - in.world);
     let against = pow(max(dot(-view, frame.sun_direction), 0.0), 3.0);

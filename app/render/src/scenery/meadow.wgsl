@@ -48,6 +48,9 @@ fn paving(at: vec2<f32>, pixel_m: f32) -> vec3<f32> {
     return mix(tint * tone, vec3(0.070, 0.066, 0.052), 0.85 * joint);
 }
 
+// Scale of the noise that tufts follow: tiles per metre.
+const TUFT_TILES_PER_M: f32 = 0.27;
+
 // Plants of the meadow at a place.
 struct Sward {
     // Albedo of their blades.
@@ -69,7 +72,7 @@ const MOWN_M: f32 = 0.8;
 fn sward(at: vec2<f32>, lod: f32) -> Sward {
     let wide = textureSampleLevel(noise, repeat_sampler, at * 0.011, lod).r;
     let patches = textureSampleLevel(noise, repeat_sampler, at * 0.063 + 0.37, lod).g;
-    let tufts = textureSampleLevel(noise, repeat_sampler, at * 0.27, max(lod - 0.5, 0.0)).rg;
+    let tufts = textureSampleLevel(noise, repeat_sampler, at * TUFT_TILES_PER_M, max(lod - 0.5, 0.0)).rg;
     let other = textureSampleLevel(noise, repeat_sampler, at * 0.19 + 0.71, max(lod - 1.0, 0.0)).rg;
     // Knolls dry out, hollows stay moist.
     let hill = hills_at(at);
@@ -100,8 +103,8 @@ const TUFT_SHADE_M: f32 = 0.16;
 // Sunlight that taller tufts towards the sun let through to the grass at a place, relative to the mean.
 fn tuft_light(at: vec2<f32>) -> f32 {
     let toward = frame.sun_direction.xz;
-    let here = textureSampleLevel(noise, repeat_sampler, at * 0.27, 0.5).r;
-    let before = textureSampleLevel(noise, repeat_sampler, (at + TUFT_SHADE_M * toward) * 0.27, 0.5).r;
+    let here = textureSampleLevel(noise, repeat_sampler, at * TUFT_TILES_PER_M, 0.5).r;
+    let before = textureSampleLevel(noise, repeat_sampler, (at + TUFT_SHADE_M * toward) * TUFT_TILES_PER_M, 0.5).r;
     return clamp(1.0 - 4.5 * (before - here), 0.25, 1.5);
 }
 
