@@ -108,8 +108,9 @@ fn the_picture_of_blobs_is_the_same_on_both_backends_and_that_of_their_mesh() {
     let bytes = fs::read(there.path().join("meshes/blobs_000002.ply")).expect("a mesh");
     let silhouette = silhouette(&mesh(&bytes));
 
+    // More than what the shade of the balls takes from the haze, and less than the rim of a glint differs from the ground.
     let is_drawn =
-        |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 25);
+        |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 15);
     let drawn: Vec<bool> = cpu.pixels().zip(without.pixels()).map(is_drawn).collect();
     let count = |mask: &[bool]| mask.iter().filter(|is_in| **is_in).count() as f64;
     let (seen, expected) = (count(&drawn), count(&silhouette));
