@@ -172,7 +172,9 @@ fn pictures_are_as_they_were() {
 
 /// A break: its name, its case, and its edit.
 #[rustfmt::skip]
-const BREAKS: [(&str, &str, &str, &str); 20] = [
+const BREAKS: [(&str, &str, &str, &str); 22] = [
+    ("shoots are too thin to be seen", "park", "radius_m / share,", "0.001 * radius_m,"),
+    ("leaves of a branchlet hang in one place", "park", "offset += leaf.place * sight.diameter;", ""),
     ("sunlight is blue", "park", "frame.sun_color *", "frame.sun_color.bgr *"),
     ("samples lie in other quarters", "park-draft", "2 * quarter.y + quarter.x", "3 - 2 * quarter.y - quarter.x"),
     ("shadows are of no map", "park-plain", "coarser > FIRST_MAP", "coarser > CASCADES"),

@@ -151,7 +151,6 @@ pub(super) mod tests {
     use windfall_core::World;
     use windfall_core::device::leaf::record::leaf_appearance;
     use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
-    use windfall_render::trees::TWIG_SIZE;
 
     use super::*;
 
@@ -239,7 +238,7 @@ pub(super) mod tests {
             }
             assert_eq!(cluster.picture, falling.picture, "the colour that it falls with");
             // The coarse mesh reaches a little further than the middle one.
-            let ratio = area(cluster) / (count as f32 * TWIG_SIZE * TWIG_SIZE * area(falling));
+            let ratio = area(cluster) / (count as f32 * area(falling));
             assert!((0.9..1.25).contains(&ratio), "{}: {ratio} of {count} leaves", cluster.name);
         }
         assert!(seen.len() > 1, "there is more than one cluster");

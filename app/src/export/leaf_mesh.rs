@@ -5,7 +5,6 @@
 use glam::{Quat, Vec3};
 use image::RgbaImage;
 use windfall_core::scene::Species;
-use windfall_render::trees::TWIG_SIZE;
 use windfall_render::{SpeciesRow, dryness, shaped};
 use windfall_texgen::Layer;
 
@@ -77,7 +76,7 @@ pub(super) fn clustered(
         let at_m = middle_m + place * size_m;
         mesh.positions_m.extend(leaf.positions_m.iter().map(|corner| {
             let moved = at_m + turn * (Vec3::from(*corner) - middle_m);
-            (TWIG_SIZE * moved).to_array()
+            moved.to_array()
         }));
         mesh.normals.extend(leaf.normals.iter().map(|normal| (turn * Vec3::from(*normal)).to_array()));
         mesh.texcoords.extend(&leaf.texcoords);

@@ -100,6 +100,11 @@ shared_struct! {
 const MIRROR_SLANT: f32 = 0.01;
 
 impl FrameUniform {
+    /// Angle of a pixel in radians. `drawn_bark` of `trees/bark_look.wgsl` has the same.
+    pub(crate) fn pixel_rad(&self) -> f32 {
+        2.0 * Vec3::from(self.up).length() * self.inv_viewport_px[1]
+    }
+
     /// The frame as water with its surface at `water_m` mirrors it: seen from as far beneath. Nothing under the surface is
     /// drawn.
     ///

@@ -6,6 +6,7 @@
 #import gpu/numbers
 #import leaf_records
 #import leaves/species_table
+#import trees/shoot
 
 @group(0) @binding(0) var<uniform> view: ViewUniform;
 @group(0) @binding(1) var<uniform> page: PageUniform;
@@ -33,10 +34,6 @@ fn mark_color(mark: Identity) -> vec3<f32> {
     return root * root;
 }
 
-fn signed_bytes(word: u32) -> vec4<f32> {
-    return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
-}
-
 // The tree of a slot; 0 for leaves of none. Trees follow each other in the order of their slots: the last that begins at or
 // before the slot.
 fn tree_of(slot: u32) -> u32 {
@@ -49,6 +46,9 @@ fn tree_of(slot: u32) -> u32 {
     }
     return select(0u, tree, slot < trees[tree].end_slot);
 }
+
+// Leaves on twigs, which hide each other, are thinned out at so many times the size at which others are.
+const CROWN_THIN: f32 = 1.4;
 
 // Appearance of a leaf in this view.
 struct Sight {
@@ -86,15 +86,15 @@ fn sight_of(index: u32) -> Sight {
     let is_attached = state == STATE_ATTACHED;
     let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
     let species = leaf_species(place.bits) % table.species_count;
-    out.diameter = table.species[species].diameter_m * select(relative, TWIG_SIZE * on_twig, is_attached);
+    out.diameter = table.species[species].diameter_m * select(relative, on_twig, is_attached);
     let center = place.position;
-    let radius = out.diameter * (PICTURE_EDGE + 1.2 * sqrt(f32(copies) - 1.0));
+    let radius = out.diameter * (PICTURE_EDGE + SHOOT_LENGTH * sqrt(f32(copies) - 1.0));
     let is_hidden = within(center) < -radius || state == STATE_DORMANT;
     out.copies = select(copies, 0u, is_hidden);
     let distance_m = select(max(distance(view.eye_m, center), 0.01), 1.0, view.is_parallel == 1u);
     let pixels = PICTURE_EDGE * out.diameter * view.pixels_per_m / distance_m;
     out.level = u32(pixels >= view.coarse_px) + u32(pixels >= view.medium_px) + u32(pixels >= view.fine_px);
-    let small = pixels / view.thin_px;
+    let small = pixels / (view.thin_px * select(1.0, CROWN_THIN, is_attached));
     out.share = clamp(small * small, view.least_share, 1.0);
     let identity = identities[index];
     out.key = hash_u32(identity.appearance + hash_u32(identity.id));
@@ -244,11 +244,10 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     attitude = select(vec4(0.0, 0.0, 0.0, 1.0), attitude, dot(attitude, attitude) > 0.25);
     var offset = vec3(build.offset_x, 0.0, build.offset_z) * diameter;
     if copy > 0u {
-        let a = signed_bytes(key);
-        let b = signed_bytes(hash_u32(key));
-        offset += a.xyz * CLUSTER_REACH * sqrt(tree.cluster) * sight.diameter;
+        let leaf = on_shoot(tree.cluster, copy, branchlet_key(page.first + index), key);
+        offset += leaf.place * sight.diameter;
         center += rotate(attitude, offset);
-        attitude = quaternion_product(attitude, normalize(vec4(b.xyz * CLUSTER_TURN, 1.0)));
+        attitude = quaternion_product(attitude, leaf.turn);
     } else {
         center += rotate(attitude, offset);
     }

@@ -13,6 +13,8 @@ use crate::trees::SceneTrees;
 /// Most slots of a page, and most leaves drawn from it: what the smallest binding that WebGPU allows can hold.
 pub(crate) const PAGE_SLOTS: u32 = 1 << 20;
 const PAGE_RECORDS: u32 = 1 << 21;
+/// Pages begin at multiples of so many slots: columns can be bound at multiples of 256 bytes on every device.
+const ALIGNED_SLOTS: u32 = 16;
 /// Bytes of a record, of the light on it and of a draw.
 const RECORD_BYTES: u64 = size_of::<LeafRecord>() as u64;
 const LIGHT_BYTES: u64 = size_of::<LeafLight>() as u64;
@@ -190,7 +192,7 @@ impl Page {
 /// of slots, and most leaves drawn from them.
 fn split(trees: &[(u32, u32)], leaf_count: u32) -> Vec<(u32, u32, u32)> {
     let most = trees.iter().map(|(_, cluster)| *cluster).max().unwrap_or(1).max(1);
-    let step = (PAGE_RECORDS / most).min(PAGE_SLOTS);
+    let step = (PAGE_RECORDS / most).min(PAGE_SLOTS) / ALIGNED_SLOTS * ALIGNED_SLOTS;
     let records = |first: u32, end: u32| {
         let mut start = 0;
         let mut more = 0;
@@ -217,14 +219,17 @@ mod tests {
     #[test]
     fn pages_hold_every_leaf_and_its_copies() {
         assert_eq!(split(&[(10, 3), (5, 1)], 20), [(0, 20, 40)], "ten stand for three, ten for one");
-        let pages = split(&[(1_000_000, 4)], 1_500_000);
-        assert!(
-            pages.iter().all(|(_, count, records)| *count <= PAGE_SLOTS && *records <= PAGE_RECORDS),
-            "{pages:?}"
-        );
-        assert!(pages.iter().all(|(first, ..)| first % 16 == 0), "columns can be bound there: {pages:?}");
-        assert_eq!(pages.iter().map(|page| page.1).sum::<u32>(), 1_500_000, "every slot");
-        assert_eq!(pages.iter().map(|page| page.2).sum::<u32>(), 4_500_000, "every copy");
+        for cluster in [4, 7, 30] {
+            let pages = split(&[(1_000_000, cluster)], 1_500_000);
+            assert!(
+                pages.iter().all(|(_, count, records)| *count <= PAGE_SLOTS && *records <= PAGE_RECORDS),
+                "{pages:?}"
+            );
+            assert!(pages.iter().all(|(first, ..)| first % 16 == 0), "columns can be bound there: {pages:?}");
+            assert_eq!(pages.iter().map(|page| page.1).sum::<u32>(), 1_500_000, "every slot");
+            let copies = 1_000_000 * cluster + 500_000;
+            assert_eq!(pages.iter().map(|page| page.2).sum::<u32>(), copies, "every copy");
+        }
         assert_eq!(split(&[], 0), [], "nothing for no leaves");
     }
 }

@@ -19,7 +19,7 @@ shared_constants! {
     /// Edge of a picture in diameters of the disc with the leaf's area, roughly.
     pub(crate) const PICTURE_EDGE: f32 = 1.6;
     /// Place of the level of detail above the bits of the copies that are kept.
-    const LEVEL_SHIFT: u32 = 16;
+    const LEVEL_SHIFT: u32 = 30;
     /// A listed leaf is its slot, and from here on which copy it is.
     const COPY_SHIFT: u32 = 20;
     /// Slots that one thread of the culling goes through, in order.
@@ -34,11 +34,11 @@ shared_struct! {
         /// Middle of the blade.
         pub(crate) center_m: [f32; 3],
         /// Edge of its picture, negative if the picture is mirrored.
-        edge_m: f32,
+        pub(crate) edge_m: f32,
         /// Attitude, x and y.
-        attitude_xy: u32,
+        pub(crate) attitude_xy: u32,
         /// Attitude, z and w.
-        attitude_zw: u32,
+        pub(crate) attitude_zw: u32,
         /// Stage of drying, and fold.
         stage_fold: u32,
         /// Bend, and twist.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Places of the park's trees.
 
+use std::f32::consts::TAU;
+
 use glam::{Vec2, Vec3};
 use windfall_core::Scene;
 use windfall_core::scene::{Source, SourceShape};
@@ -37,8 +39,9 @@ vertex_struct! {
 /// Closest a tree stands to the viewer, in metres: any nearer its trunk would hide the scene.
 const NEAREST_M: f32 = 7.0;
 
-/// No tree but a source's own stands this near before the camera, in metres.
+/// No tree but a source's own stands this near before the camera, in metres; on hills one looks farther.
 const OPEN_M: f32 = 22.0;
+const OPEN_ON_HILLS_M: f32 = 45.0;
 /// A scene with trees of its own has no others nearer to the centre than this, in metres.
 const OWN_M: f32 = 50.0;
 /// Half angle before the camera, in radians, in which no tree stands nearer than `FAR_M` metres in a scene with trails.
@@ -46,6 +49,13 @@ const STAGE_RAD: f32 = 0.8;
 const FAR_M: f32 = 60.0;
 /// The last part of the autumn, in which far woods lose their leaves.
 const LATE: f32 = 0.4;
+/// Woods on hills begin at this distance and end at the horizon, in metres.
+const WOODS_M: f32 = 150.0;
+const HORIZON_M: f32 = 1300.0;
+/// Distance between their trees in metres: the least, and what is added per metre of their distance.
+const WOODS_APART: (f32, f32) = (7.0, 0.012);
+/// Least upward part of the normal of ground on which trees stand: 45 degrees.
+const STEEPEST: f32 = 0.707;
 /// Largest share of a tree's picture that is cut off its foot.
 const MOST_CUT: f32 = 0.16;
 /// Square of the height of the youngest trees, as a share of the square of the height that they come to.
@@ -83,6 +93,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
     let path_phase = PATH_PHASES.into_iter().find(|&phase| is_clear(phase)).unwrap_or(PATH_PHASES[0]);
     // Trails are to be read like a diagram: before a bare meadow and a far edge of woods.
     let stage_rad: f32 = if scene.view.trail_s > 0.0 { STAGE_RAD } else { 0.0 };
+    let open_m = if land.hills().is_some() { OPEN_ON_HILLS_M } else { OPEN_M };
     // Rings of inner and outer radius, number of trees, and the angle kept open along the view.
     let rings = [
         (17.0f32, 30.0f32, 9, 0.38f32, 1.0f32),
@@ -96,7 +107,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
         (420.0, 1300.0, 900, 0.0, 1.25),
     ];
     for (inner, outer, count, open_rad, scale) in rings {
-        if has_trees && inner < OWN_M {
+        if (has_trees && inner < OWN_M) || (land.hills().is_some() && inner >= WOODS_M) {
             continue;
         }
         let bush = scale < 0.9;
@@ -106,7 +117,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
             if left == 0 {
                 break;
             }
-            let angle = random.range(0.0, std::f32::consts::TAU);
+            let angle = random.range(0.0, TAU);
             let radius = random.range(inner * inner, outer * outer).sqrt();
             let toward = Vec2::from_angle(angle);
             let apart = toward.dot(view).clamp(-1.0, 1.0).acos();
@@ -115,7 +126,8 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
             let spacing = if bush { 2.0 } else { 3.5 + (0.07 * radius).min(8.0) };
             if !clear
                 || land.is_wet(foot.x, foot.z)
-                || hides(eye, view, foot)
+                || land.normal(foot.x, foot.z).y < STEEPEST
+                || hides(eye, view, foot, open_m)
                 || apart < open_rad
                 || standing.iter().any(|&foot_m| foot_m.distance(foot) < spacing)
                 || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing)
@@ -135,7 +147,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
             let hue = (0.1 + 0.85 * random.unit()) * season;
             let brightness = random.range(0.8, 1.15);
             let foot_m = Vec3 { y: land.ground_m(foot.x, foot.z), ..foot };
-            let turn_rad = shapes.range(0.0, std::f32::consts::TAU);
+            let turn_rad = shapes.range(0.0, TAU);
             // In woods trees stand close, and their trunks are long; at the edge they have branches down to the ground.
             let cut = if bush { 0.0 } else { MOST_CUT * shapes.unit() };
             let age = shapes.range(YOUNGEST, 1.0).sqrt();
@@ -151,16 +163,65 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
             });
         }
     }
+    if land.hills().is_some() {
+        trees.extend(hill_woods(land, center, season, &|foot| hides(eye, view, foot, open_m)));
+    }
     // Late in the year the far woods, too, are bare.
     let leaves = if has_trees { ((1.0 - scene.autumn) / LATE).min(1.0) } else { 1.0 };
     Park { trees, leaves, path_phase }
 }
 
+/// Woods on hills around `center`, whose slopes show far more of them than level ground does: the farther away the wider apart.
+fn hill_woods(land: &Land, center: Vec3, season: f32, hides: &dyn Fn(Vec3) -> bool) -> Vec<TreeInstance> {
+    let mut random = Random::new(47);
+    let mut trees = Vec::new();
+    let mut radius_m = WOODS_M;
+    while radius_m < HORIZON_M {
+        let apart_m = WOODS_APART.0 + WOODS_APART.1 * radius_m;
+        let mut angle = random.unit() * apart_m / radius_m;
+        while angle < TAU {
+            let [outward, around] =
+                [random.range(-0.45, 0.45), random.range(-0.45, 0.45)].map(|share| share * apart_m);
+            let at = Vec2::from_angle(angle + around / radius_m) * (radius_m + outward);
+            let foot_m = Vec3::new(center.x + at.x, 0.0, center.z + at.y);
+            // Drawn for every place, so that trees stay who they are when the land changes.
+            let (age, width, own) = (random.range(0.45, 1.0), random.range(0.85, 1.1), random.word());
+            let (hue, brightness) = ((0.1 + 0.85 * random.unit()) * season, random.range(0.8, 1.15));
+            angle += apart_m / radius_m;
+            let is_open = forest_cover(foot_m.x, foot_m.z) + 0.25 * (age - 0.7) < 0.0;
+            let is_bare = land.normal(foot_m.x, foot_m.z).y < STEEPEST;
+            if is_open || is_bare || land.is_wet(foot_m.x, foot_m.z) || hides(foot_m) {
+                continue;
+            }
+            trees.push(TreeInstance {
+                foot_m: Vec3 { y: land.ground_m(foot_m.x, foot_m.z), ..foot_m },
+                height_m: 20.0 * age,
+                width: if own & 1 == 0 { width } else { -width },
+                kind: (own >> 1) % (TREE_COUNT - TREE_COUNT / 4),
+                turn_rad: TAU * age,
+                cut: MOST_CUT * own as f32 / u32::MAX as f32,
+                hue,
+                brightness,
+            });
+        }
+        radius_m += apart_m;
+    }
+    trees
+}
+
+/// Field that is positive in woods and negative in clearings, some hundred metres wide.
+fn forest_cover(x_m: f32, z_m: f32) -> f32 {
+    let wave = |x: f32, z: f32, length_m: f32| ((x_m * x + z_m * z) * TAU / length_m).sin();
+    0.35 + wave(0.8, 0.6, 310.0)
+        + wave(-0.5, 0.87, 230.0) * wave(0.97, 0.24, 170.0)
+        + 0.5 * wave(0.3, -0.95, 90.0)
+}
+
 /// Returns true if a tree at `foot` would stand right before the viewer.
-fn hides(eye: Vec3, view: Vec2, foot: Vec3) -> bool {
+fn hides(eye: Vec3, view: Vec2, foot: Vec3, open_m: f32) -> bool {
     let offset = Vec2::new(foot.x - eye.x, foot.z - eye.z);
     let distance = offset.length();
-    distance < NEAREST_M || (distance < OPEN_M && offset.dot(view) > 0.8 * distance)
+    distance < NEAREST_M || (distance < open_m && offset.dot(view) > 0.8 * distance)
 }
 
 /// The tree whose crown is a source's ball of leaves.
@@ -182,7 +243,7 @@ fn crown_tree(scene: &Scene, land: &Land, source: &Source, random: &mut Random) 
         // Painted crowns are about 0.65 of their picture wide.
         width: (2.0 * radius_m / 0.65 / height_m).clamp(0.6, 1.5),
         kind: random.word() % (TREE_COUNT - TREE_COUNT / 4),
-        turn_rad: random.range(0.0, std::f32::consts::TAU),
+        turn_rad: random.range(0.0, TAU),
         cut: 0.0,
         hue: (0.5 * (first + last)).clamp(0.0, 1.0) * 0.9,
         brightness: random.range(0.9, 1.1),
@@ -208,6 +269,21 @@ mod tests {
         assert_eq!(foot, Vec3::new(-2.4, 0.0, -3.0), "the first tree is the source's");
         let clear = beyond_path(Vec2::new(foot.x, foot.z), Vec2::NEG_Y, park.path_phase);
         assert!(clear > 2.5, "{clear} m from the middle of the path");
+    }
+
+    #[test]
+    fn hills_are_wooded_where_they_are_neither_steep_nor_under_water() {
+        use windfall_core::scene::{Ground, Terrain, Water};
+        let terrain = Some(Terrain { levels: 8, ..Terrain::default() });
+        let ground = Ground { terrain, water: Some(Water { height_m: -2.0 }), ..Ground::default() };
+        let land = Land::of(&ground);
+        let woods = hill_woods(&land, Vec3::ZERO, 1.0, &|_| false);
+        assert!((1000..20_000).contains(&woods.len()), "{} trees", woods.len());
+        for tree in &woods {
+            let (x, z) = (tree.foot_m.x, tree.foot_m.z);
+            assert_eq!(tree.foot_m.y, land.ground_m(x, z), "on the ground");
+            assert!(!land.is_wet(x, z) && land.normal(x, z).y >= STEEPEST, "{tree:?}");
+        }
     }
 
     #[test]

@@ -188,7 +188,12 @@ impl Renderer {
             self.grass_pass.light(encoder, [&self.frame.group, &self.light.group]);
         }
         let sides = Sides::of(frame.view_projection);
-        let part_input = PartInput { leaf_count: leaves.leaf_count, branches: &group, sides: &sides };
+        let part_input = PartInput {
+            leaf_count: leaves.leaf_count,
+            branches: &group,
+            sides: &sides,
+            eye: (frame.eye_m.into(), frame.pixel_rad()),
+        };
         self.draw_scene(encoder, timer, part_input);
         self.draw_motion(encoder, leaves, input.time_s);
         self.targets.place(encoder, tile);
@@ -224,7 +229,11 @@ impl Renderer {
             self.bark_pass.draw_mirrored(&mut pass, wood, &sides);
         }
         for part in [ScenePart::Objects, ScenePart::Leaves] {
-            self.draw_part(&mut pass, part, PartInput { leaf_count: 0, branches, sides: &sides });
+            self.draw_part(
+                &mut pass,
+                part,
+                PartInput { leaf_count: 0, branches, sides: &sides, eye: (Vec3::ZERO, 1.0) },
+            );
         }
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
@@ -337,13 +346,13 @@ impl Renderer {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         part: ScenePart,
-        PartInput { leaf_count, branches, sides }: PartInput<'_>,
+        PartInput { leaf_count, branches, sides, eye }: PartInput<'_>,
     ) {
         match part {
             ScenePart::Bark => {
-                let has_twigs = self.quality.has_fine_parts();
+                let twigs_seen = self.quality.has_fine_parts().then_some(eye);
                 for wood in self.woods(branches) {
-                    self.bark_pass.draw(pass, wood, sides, has_twigs);
+                    self.bark_pass.draw(pass, wood, sides, twigs_seen);
                 }
             }
             ScenePart::Objects => {
@@ -394,6 +403,8 @@ struct PartInput<'a> {
     branches: &'a wgpu::BindGroup,
     /// Sides of the view.
     sides: &'a Sides,
+    /// Place of the eye, and the angle of a pixel in radians.
+    eye: (Vec3, f32),
 }
 
 /// Beginning and end of the drawing of a scene.

@@ -55,7 +55,9 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let rise = length(hill.yz);
     let bare = bare_soil(at, in.world.y, rise);
     let above_water_m = in.world.y - land.water_m;
-    albedo = mix(albedo, soil_albedo(grain, above_water_m), bare);
+    let rock = bare * rock_share(at, rise);
+    let without_grass = mix(soil_albedo(grain, above_water_m), rock_albedo(in.world, grain), rock / max(bare, 1.0e-3));
+    albedo = mix(albedo, without_grass, bare);
     var path = path_share(at, distance_m);
     // Feet keep the middle of the path firm and pale; along its edges crumbs of soil lie.
     let within_m = -beyond_path(at);
@@ -76,7 +78,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let seen = smoothstep(12.0, 34.0, distance_m);
     let speck = mix(smoothstep(0.12, 0.20, grain.z), 0.55, smoothstep(18.0, 45.0, distance_m));
     let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), grain.y * 1.2 + 0.4);
-    albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved));
+    albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved) * (1.0 - 0.8 * bare));
     albedo = wet_reflectance(albedo, wetness(at));
 
     // Snow beyond the rectangle on which it is simulated, and what shows of the ground within it.
@@ -87,7 +89,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     var sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
     // Snow levels out grains and tufts.
     let relief = mix(mix(1.0, tuft_light(at), far), grain_relief(at), max(path, bare));
-    sun *= mix(relief, 1.0, snowy);
+    sun *= mix(mix(relief, rock_relief(at), rock), 1.0, snowy);
     // Grass along the path shades its edge.
     let toward_sun = frame.sun_direction.xz * (1.2 * SWARD_M / max(frame.sun_direction.y, 0.12));
     sun *= 1.0 - 0.7 * path * (1.0 - paved) * (1.0 - snowy) * smoothstep(-0.04, 0.06, beyond_path(at + toward_sun));

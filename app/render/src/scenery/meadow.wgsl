@@ -132,6 +132,35 @@ fn soil_albedo(grain: vec3<f32>, above_water_m: f32) -> vec3<f32> {
         * (0.75 + dot(grain, vec3(0.9, 0.8, 0.5)));
 }
 
+// Share of bare ground that is rock: what is too steep for soil.
+fn rock_share(at: vec2<f32>, rise: f32) -> f32 {
+    let coarse = textureSampleLevel(noise, repeat_sampler, at * 0.031 + 0.57, 0.0).r - 0.5;
+    return smoothstep(0.66, 0.84, rise + 0.6 * coarse);
+}
+
+// Height of the blocks of rock, without scale.
+fn rock_height(at: vec2<f32>) -> f32 {
+    let blocks = textureSampleLevel(noise, repeat_sampler, at * 0.023, 0.0);
+    return blocks.r + 0.5 * textureSampleLevel(noise, repeat_sampler, at * 0.071 + blocks.gb * 0.2, 0.0).g;
+}
+
+// Sunlight that the blocks of rock let through to a place.
+fn rock_relief(at: vec2<f32>) -> f32 {
+    let toward_sun = normalize(frame.sun_direction.xz + vec2(1.0e-5, 0.0));
+    return clamp(1.0 + 4.5 * (rock_height(at) - rock_height(at + 0.9 * toward_sun)), 0.15, 1.5);
+}
+
+// Albedo of rock in beds that lie a little aslant, with lichen on it.
+fn rock_albedo(world: vec3<f32>, grain: vec3<f32>) -> vec3<f32> {
+    let height = world.y + 0.11 * world.x + 0.07 * world.z;
+    let bed = textureSampleLevel(noise, repeat_sampler, vec2(height * 0.05, 0.004 * (world.x - world.z)), 0.0);
+    let patches = textureSampleLevel(noise, repeat_sampler, world.xz * 0.05 + 0.3 * bed.rg, 0.0);
+    let stone = mix(vec3(0.105, 0.098, 0.090), vec3(0.200, 0.190, 0.172), smoothstep(0.25, 0.75, bed.g));
+    let lichen = smoothstep(0.52, 0.62, patches.b);
+    return mix(stone, vec3(0.125, 0.128, 0.078), 0.7 * lichen) * mix(0.45, 1.0, smoothstep(0.2, 0.45, patches.r))
+        * (0.8 + dot(grain, vec3(0.7, 0.6, 0.4)));
+}
+
 // The same of the gravel of the path, which is wet only where water laps at it.
 fn gravel_albedo(grain: vec3<f32>, above_water_m: f32) -> vec3<f32> {
     let wet = 1.0 - smoothstep(0.03, 0.15, above_water_m + 0.1 * grain.y);
@@ -149,7 +178,7 @@ fn path_share(at: vec2<f32>, distance_m: f32) -> f32 {
 // spots and the shore have it.
 fn bare_soil(at: vec2<f32>, height: f32, rise: f32) -> f32 {
     let coarse = textureSampleLevel(noise, repeat_sampler, at * 0.09 + 0.13, 0.0).g - 0.5;
-    let steep = smoothstep(0.50, 0.85, rise + 0.5 * coarse);
+    let steep = smoothstep(0.62, 0.92, rise + 0.6 * coarse);
     let worn = 0.6 * smoothstep(0.36, 0.50, coarse);
     let shore = 1.0 - smoothstep(0.0, 0.20, height - land.water_m - 0.22 * coarse);
     return max(max(steep, worn), shore);

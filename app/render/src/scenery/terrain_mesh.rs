@@ -12,7 +12,7 @@ use crate::gpu::upload;
 
 shared_constants! {
     /// Cells along an edge of a ring: a multiple of four.
-    const RING_CELLS: u32 = 64;
+    const RING_CELLS: u32 = 128;
     /// Edge of the innermost ring's cells in metres.
     const FINEST_M: f32 = 0.5;
 }

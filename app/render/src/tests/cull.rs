@@ -4,6 +4,7 @@
 
 use glam::{Mat4, Vec3, Vec4};
 use windfall_core::device::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
+use windfall_core::leaf::Leaves;
 use windfall_core::{Scene, World, scene};
 use windfall_wgpu::{Gpu, LeafColumns};
 
@@ -16,11 +17,13 @@ use crate::leaves::page::Page;
 use crate::leaves::record::{LeafDraw, LeafRecord, PICTURE_EDGE, SLOT_SHIFT, ViewUniform};
 use crate::leaves::species_table::SpeciesTable;
 use crate::leaves::visible::VisibleLeaves;
-use crate::trees::SceneTrees;
 use crate::trees::records::TreeRecords;
+use crate::trees::{MAX_CLUSTER, SceneTrees};
 
 /// Leaves that are strewn around the camera.
 const LEAVES: u32 = 12000;
+/// Edge of the leaves' pictures in pixels.
+pub(super) const ATLAS_PX: u32 = 16;
 /// Pixels of a metre at one metre.
 const PIXELS_PER_M: f32 = 900.0;
 
@@ -68,25 +71,40 @@ impl Field {
         leaf_count: u32,
         place: &dyn Fn(u32) -> [u32; 4],
     ) -> Self {
+        let rows = |row: &dyn Fn(u32) -> [u32; 4]| (0..leaf_count).map(row).collect::<Vec<_>>();
+        let columns = [
+            rows(place),
+            rows(&|_| [0, 0, 0, 1.0f32.to_bits()]),
+            rows(&|_| [0, 0, SIZE_ONE, 0]),
+            rows(&|leaf| [leaf, 0, 0, leaf * 77]),
+        ];
+        Self::with(scene, scene_trees, leaf_count, columns.each_ref().map(|rows| bytemuck::cast_slice(rows)))
+    }
+
+    /// The leaves of a world.
+    pub(super) fn of_world(scene: &Scene, scene_trees: &SceneTrees, leaves: &Leaves) -> Self {
+        let columns = [
+            bytemuck::cast_slice(&leaves.place),
+            bytemuck::cast_slice(&leaves.attitude),
+            bytemuck::cast_slice(&leaves.schedule),
+            bytemuck::cast_slice(&leaves.identity),
+        ];
+        let leaf_count = u32::try_from(leaves.place.len()).expect("few");
+        Self::with(scene, scene_trees, leaf_count, columns)
+    }
+
+    /// So many leaves with these columns.
+    fn with(scene: &Scene, scene_trees: &SceneTrees, leaf_count: u32, columns: [&[u8]; 4]) -> Self {
         let gpu = gpu();
         let (device, queue) = (gpu.device(), gpu.queue());
-        let atlas = super::disc_atlas(scene, 16);
+        let atlas = super::disc_atlas(scene, ATLAS_PX);
         let species_table = SpeciesTable::new(device, queue, scene, &atlas, &[])
             .expect("species_table within default limits");
         let cull = CullPass::new(device, &species_table, false);
         let tree_records = TreeRecords::new(device, queue, scene_trees);
         let visible = VisibleLeaves::new(device, queue, &cull, scene_trees, leaf_count);
-        let column = |row: &dyn Fn(u32) -> [u32; 4]| {
-            let rows: Vec<[u32; 4]> = (0..leaf_count).map(row).collect();
-            let usage = wgpu::BufferUsages::STORAGE;
-            upload::buffer(device, queue, "column", usage, bytemuck::cast_slice(&rows))
-        };
-        let columns = [
-            column(place),
-            column(&|_| [0, 0, 0, 1.0f32.to_bits()]),
-            column(&|_| [0, 0, SIZE_ONE, 0]),
-            column(&|leaf| [leaf, 0, 0, leaf * 77]),
-        ];
+        let usage = wgpu::BufferUsages::STORAGE;
+        let columns = columns.map(|bytes| upload::buffer(device, queue, "column", usage, bytes));
         Self { gpu, cull, tree_records, visible, columns, leaf_count }
     }
 
@@ -98,13 +116,18 @@ impl Field {
 
     /// Culls for a camera in a picture 1.6 times as wide as high.
     pub(super) fn run(&self, camera: &Camera) {
+        self.run_at(camera, PIXELS_PER_M);
+    }
+
+    /// The same with so many pixels a metre at one metre.
+    pub(super) fn run_at(&self, camera: &Camera, pixels_per_m: f32) {
         let columns = self.leaves();
         let clip = camera.view_projection(1.6).to_cols_array_2d();
         let eye_m = camera.eye_m().to_array();
         self.cull.write(
             self.gpu.queue(),
             View::Camera,
-            &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M, 1.0),
+            &ViewUniform::perspective(clip, eye_m, pixels_per_m, 1.0),
         );
         let mut encoder = encoder(&self.gpu);
         let leaves = (&columns, None, &self.tree_records);
@@ -119,7 +142,7 @@ fn every_leaf_of_a_cluster_is_drawn() {
     let scene = Scene::from_ron(trees, "two weeds").expect("a scene");
     let world = World::build(&scene).expect("a world");
     let mut scene_trees = SceneTrees::of(&scene, world.compiled.forest());
-    let clusters = [3, 16];
+    let clusters = [3, MAX_CLUSTER];
     for (tree, cluster) in scene_trees.trees.iter_mut().zip(clusters) {
         tree.cluster = cluster;
     }

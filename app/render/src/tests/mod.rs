@@ -5,6 +5,7 @@
 
 mod blobs;
 mod burning;
+mod closure;
 mod cull;
 mod flames;
 mod halo;

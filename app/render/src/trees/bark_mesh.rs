@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bark of all trees of a scene in one vertex and one index buffer.
+//! The bark of all trees of a scene in one vertex and one index buffer, and their shoots.
 
 use std::ops::Range;
 
 use glam::Vec3;
 use windfall_core::tree::{BarkDetail, bark_mesh};
 
+use super::shoots::{ShootInstance, shoots_of};
 use super::{SceneTrees, StandingTree};
 use crate::frame::sides::Sides;
 use crate::gpu::upload;
@@ -22,6 +23,9 @@ const FAR: (f32, f32) = (7.0, 70.0);
 const TWIG_M: f32 = 0.006;
 /// Largest radius as an angle from the eye: a pixel of a picture 720 pixels high with the usual camera.
 const TWIG_RAD: f32 = 0.0013;
+
+/// Number of the first tree's record, which is the instance: the one before is that of no tree.
+pub(crate) const FIRST_RECORD: u32 = 1;
 
 vertex_struct! {
     /// A corner of the bark.
@@ -46,6 +50,7 @@ vertex_struct! {
 pub(crate) struct BarkBuffers {
     pub(crate) vertices: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
+    pub(crate) shoots: wgpu::Buffer,
     /// Indices of every tree, in the order of the scene.
     pub(crate) trees: Vec<TreeIndices>,
 }
@@ -55,6 +60,10 @@ pub(crate) struct BarkBuffers {
 pub(crate) struct TreeIndices {
     pub(crate) limbs: Range<u32>,
     pub(crate) twigs: Range<u32>,
+    /// Its shoots among those of all.
+    pub(crate) shoots: Range<u32>,
+    /// Middle of its crown in metres.
+    pub(crate) crown_m: Vec3,
     /// A ball around the tree however it sways: its middle and radius in metres.
     ball: (Vec3, f32),
 }
@@ -77,7 +86,13 @@ impl BarkBuffers {
         let (mut vertices, mut indices) = (Vec::new(), Vec::<u32>::new());
         let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
         let mut trees = Vec::with_capacity(scene_trees.trees.len());
-        for tree in &scene_trees.trees {
+        let (mut shoots, mut first_slot) = (Vec::<ShootInstance>::new(), 0);
+        for (tree, record) in scene_trees.trees.iter().zip(FIRST_RECORD..) {
+            let shoots_from = count(shoots.len());
+            if quality.has_fine_parts() {
+                shoots.extend(shoots_of(tree, record, first_slot));
+            }
+            first_slot += tree.leaves;
             let mesh = bark_mesh(&tree.skeleton, detail(tree, eye_m, quality));
             let (first, base) = (count(indices.len()), count(vertices.len()));
             let own: Vec<BarkVertex> =
@@ -91,6 +106,8 @@ impl BarkBuffers {
             trees.push(TreeIndices {
                 limbs: first..twigs_from,
                 twigs: twigs_from..count(indices.len()),
+                shoots: shoots_from..count(shoots.len()),
+                crown_m: tree.crown.center_m,
                 ball: ball_around(&own),
             });
             vertices.extend(own);
@@ -99,7 +116,9 @@ impl BarkBuffers {
         let vertices = upload::buffer(device, queue, "bark", usage, bytes);
         let (usage, bytes) = (wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices));
         let indices = upload::buffer(device, queue, "bark", usage, bytes);
-        Self { vertices, indices, trees }
+        let (usage, bytes) = (wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&shoots));
+        let shoots = upload::buffer(device, queue, "shoots", usage, bytes);
+        Self { vertices, indices, shoots, trees }
     }
 
     /// Makes a pass draw from the buffers, moved with the branches of `group`.

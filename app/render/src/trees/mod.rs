@@ -12,6 +12,7 @@ mod crown;
 pub(crate) mod fruit_pass;
 mod look;
 pub(crate) mod records;
+pub(crate) mod shoots;
 
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ use windfall_core::tree::forest::Planted;
 use windfall_core::tree::{AttachmentKind, Forest, Segment, Skeleton};
 
 pub(crate) use cluster::MAX_CLUSTER;
-pub use cluster::{TWIG_SIZE, cluster};
+pub use cluster::cluster;
 pub(crate) use crown::Crown;
 pub use look::{BarkKind, Look};
 
@@ -34,11 +35,15 @@ pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
     let structs = records::TreeRecord::declaration()
         + &bark_mesh::BarkVertex::declaration()
+        + &shoots::ShootInstance::declaration()
         + &fruit_pass::FruitInstance::declaration();
     let snow = snow::wgsl_constants().into_iter().filter(|(name, _)| *name == "SNOW_UNIT_KG").collect();
-    shaders.extend([("trees/structs", declarations([cluster::wgsl_constants(), snow]) + &structs)]);
+    shaders.extend([(
+        "trees/structs",
+        declarations([cluster::wgsl_constants(), shoots::wgsl_constants(), snow]) + &structs,
+    )]);
     shaders.extend(
-        wgsl_files!("trees": "records", "bark_shape", "bark_look", "bark_pass", "twig_pass", "fruit_pass"),
+        wgsl_files!("trees": "records", "bark_shape", "bark_look", "bark_pass", "shoot", "twig_pass", "fruit_pass"),
     );
     shaders
 }
@@ -56,6 +61,8 @@ pub struct StandingTree {
     pub species: Option<u32>,
     /// Leaves that each of its simulated leaves stands for, at least 1.
     pub cluster: u32,
+    /// Diameter in metres of the disc with the area of one of its leaves.
+    pub(crate) leaf_m: f32,
     /// Slots of its leaves among those of the world, in the order of the scene's trees.
     pub leaves: u32,
     /// Extent of its leaves.
@@ -70,6 +77,9 @@ impl StandingTree {
         self.foot_m + at_m
     }
 }
+
+/// Diameter in metres of the leaves of trees of which nothing is known: it sets the length of their shoots.
+const COMMON_LEAF_M: f32 = 0.06;
 
 /// All trees of a scene, with the rest pose of the branch columns.
 #[derive(Clone, Debug, Default)]
@@ -117,6 +127,7 @@ impl SceneTrees {
                 rows: planted.rows.clone(),
                 species,
                 cluster,
+                leaf_m: species.map_or(COMMON_LEAF_M, |index| scene.species[index as usize].size_m),
                 leaves: tree.leaves,
                 crown: Crown::of(&planted.skeleton, planted.foot_m),
                 look: Look::of(scene, tree, &kind, species),

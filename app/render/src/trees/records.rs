@@ -31,8 +31,8 @@ shared_struct! {
         own: f32,
         /// Least radius of a drawn twig in pixels.
         twig_px: f32,
-        /// Unused.
-        unused: f32,
+        /// Diameter of its leaves in metres.
+        leaf_m: f32,
         /// First slot of its leaves.
         first_slot: u32,
         /// The slot after the last.
@@ -51,7 +51,7 @@ const NO_TREE: TreeRecord = TreeRecord {
     bark_kind: 0,
     own: 0.0,
     twig_px: 0.0,
-    unused: 0.0,
+    leaf_m: 0.0,
     first_slot: 0,
     end_slot: 0,
     padding: [0; 8],
@@ -96,6 +96,7 @@ fn record(tree: &StandingTree, next: &mut u32) -> TreeRecord {
         bark_kind: u32::try_from(kind).unwrap_or(0),
         own: look.own,
         twig_px: TWIG_PX,
+        leaf_m: tree.leaf_m,
         first_slot,
         end_slot: *next,
         ..NO_TREE
