@@ -17,7 +17,7 @@ pub(crate) const DEFAULT_SCENE: &str = "autumn-park";
 /// The scene to work on.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneArguments {
-    /// Preset (autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow, snowstorm, thaw) or path of a RON file [default: autumn-park].
+    /// Preset (autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow, snowstorm, thaw, valley, city-square) or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     pub scene: Option<String>,
     /// Number of leaves; trees, sources and litter share them as they share those of the scene, at rates that go along.

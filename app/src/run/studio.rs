@@ -193,6 +193,12 @@ impl Studio {
         Ok(picture?)
     }
 
+    /// Takes the pictures to come from a camera, whatever path the scene's own follows.
+    pub fn look_from(&mut self, camera: &windfall_core::scene::Camera) {
+        self.path.clear();
+        self.camera = Camera::from(camera);
+    }
+
     /// Notes where the leaves are for pictures to come, without drawing.
     ///
     /// # Errors

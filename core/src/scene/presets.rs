@@ -41,6 +41,8 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("first-snow", include_str!("../../scenes/first-snow.ron")),
     ("snowstorm", include_str!("../../scenes/snowstorm.ron")),
     ("thaw", include_str!("../../scenes/thaw.ron")),
+    ("valley", include_str!("../../scenes/valley.ron")),
+    ("city-square", include_str!("../../scenes/city-square.ron")),
 ];
 
 impl Scene {
@@ -104,6 +106,8 @@ mod tests {
                 "first-snow",
                 "snowstorm",
                 "thaw",
+                "valley",
+                "city-square",
             ],
             "names and their order"
         );

@@ -9,7 +9,7 @@ use crate::common_cli::{assert_refused, assert_refused_without_adapter, file, fo
 #[test]
 fn unknown_scenes() {
     let there = folder();
-    let presets = "autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow, snowstorm, thaw";
+    let presets = "autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow, snowstorm, thaw, valley, city-square";
     for command in [&["simulate"][..], &["bench"], &["motions", "--out", "tables"]] {
         let refuse = |scene, essentials: &[&str]| {
             assert_refused(&there, &[command, &[scene]].concat(), essentials);

@@ -127,7 +127,7 @@ fn files_that_are_no_scenes_are_refused_in_one_line() {
 
 #[test]
 fn names_that_stand_for_nothing_are_refused_in_one_line() {
-    let all = "presets: autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow, snowstorm, thaw";
+    let all = "presets: autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow, snowstorm, thaw, valley, city-square";
     for (name, hint) in [
         ("strom", " (did you mean 'storm'?)"),
         ("no/such/file.ron", ""),

@@ -22,10 +22,10 @@ use windfall_render::{Quality, with_shader_edit};
 use windfall_texgen::Atlas;
 
 /// Size of the pictures: small, but nothing of a scene is lost.
-const SIZE: (u32, u32) = (256, 144);
+pub(crate) const SIZE: (u32, u32) = (256, 144);
 /// The rasteriser they are drawn on: Mesa's, in software. Others break leaves and grass into other pixels: Chromium's SwiftShader
 /// scores 43 in the park and 87 out of focus, which is worse than most of the breaks below.
-const RASTERISER: &str = "llvmpipe";
+pub(crate) const RASTERISER: &str = "llvmpipe";
 /// Lowest score of a picture that is as it was. The same rasteriser draws the same picture, which is 100; the faintest of the
 /// breaks below scores 72.
 const LEAST_SCORE: f64 = 90.0;
