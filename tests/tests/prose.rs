@@ -110,3 +110,20 @@ fn the_map_is_that_of_the_tree() {
     assert!(missing.is_empty(), "rooms that the map leaves out: {missing:?}");
     assert!(mapped.len() > 40, "the map has {} lines", mapped.len());
 }
+
+#[test]
+fn scenes_of_the_gallery_can_be_built() {
+    let entries = fs::read_dir(root().join("docs/gallery")).expect("a folder of the project");
+    let files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("readable").path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "ron"))
+        .collect();
+    assert!(files.len() > 1, "{files:?}");
+    for file in files {
+        let name = file.display().to_string();
+        let text = fs::read_to_string(&file).expect("readable");
+        let scene =
+            windfall_core::Scene::from_ron(&text, &name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        windfall_core::World::build(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}
