@@ -88,7 +88,8 @@ fn sight_of(index: u32) -> Sight {
     let species = leaf_species(place.bits) % table.species_count;
     out.diameter = table.species[species].diameter_m * select(relative, on_twig, is_attached);
     let center = place.position;
-    let radius = out.diameter * (PICTURE_EDGE + SHOOT_LENGTH * sqrt(f32(copies) - 1.0));
+    let reach = select(0.0, SHOOT_LENGTH * sqrt(f32(copies)), copies > 1u);
+    let radius = out.diameter * (PICTURE_EDGE + reach);
     let is_hidden = within(center) < -radius || state == STATE_DORMANT;
     out.copies = select(copies, 0u, is_hidden);
     let distance_m = select(max(distance(view.eye_m, center), 0.01), 1.0, view.is_parallel == 1u);

@@ -97,7 +97,8 @@ pub(crate) fn shoots_of(tree: &StandingTree, record: u32, first_slot: u32) -> Ve
     };
     let mut shoots: Vec<_> = sites.iter().flat_map(shoots_of).collect();
     // Multiples of an odd number are a permutation of the words.
-    shoots.sort_by_key(|shoot| (8 * shoot.slot + shoot.number).wrapping_mul(0x9E37_79B1));
+    shoots
+        .sort_by_key(|shoot| shoot.slot.wrapping_mul(8).wrapping_add(shoot.number).wrapping_mul(0x9E37_79B1));
     shoots
 }
 
