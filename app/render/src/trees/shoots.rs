@@ -117,9 +117,10 @@ fn bare_sites(skeleton: &Skeleton) -> Vec<Site> {
         )]
         let count = (wood.length_m() / SPACING_M).round() as u32;
         for number in 0..count {
-            let slot = u32::MAX - count32(sites.len());
+            let site = count32(sites.len());
+            let slot = u32::MAX - site;
             let around =
-                Quat::from_axis_angle(axis, GOLDEN_RAD * slot as f32 % TAU) * axis.any_orthonormal_vector();
+                Quat::from_axis_angle(axis, GOLDEN_RAD * site as f32 % TAU) * axis.any_orthonormal_vector();
             let direction = axis * SITE_ANGLE_RAD.cos() + around * SITE_ANGLE_RAD.sin();
             let normal =
                 direction.cross(Vec3::Y).cross(direction).normalize_or(direction.any_orthonormal_vector());
@@ -166,6 +167,8 @@ fn shoot_share(pixel_m: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashSet;
+
     use windfall_core::{Scene, World};
 
     use super::*;
@@ -190,6 +193,8 @@ mod tests {
         assert!(shoots.iter().all(|shoot| (40..5040).contains(&shoot.slot) && shoot.record == 3));
         let bare = shoots_of(&bare, 1, 0);
         assert!(bare.len() > 1000, "{} shoots of a bare tree", bare.len());
+        let turns: HashSet<[i16; 4]> = bare.iter().map(|shoot| shoot.attitude).collect();
+        assert!(2 * turns.len() > bare.len() / 2, "{} directions of {} shoots", turns.len(), bare.len());
     }
 
     #[test]
