@@ -232,7 +232,12 @@ impl Renderer {
             self.draw_part(
                 &mut pass,
                 part,
-                PartInput { leaf_count: 0, branches, sides: &sides, eye: (Vec3::ZERO, 1.0) },
+                PartInput {
+                    leaf_count: 0,
+                    branches,
+                    sides: &sides,
+                    eye: (frame.eye_m.into(), frame.pixel_rad()),
+                },
             );
         }
         self.ground_pass.draw(&mut pass);

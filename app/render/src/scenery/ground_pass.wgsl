@@ -55,8 +55,13 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let rise = length(hill.yz);
     let bare = bare_soil(at, in.world.y, rise);
     let above_water_m = in.world.y - land.water_m;
-    let rock = bare * rock_share(at, rise);
-    let without_grass = mix(soil_albedo(grain, above_water_m), rock_albedo(in.world, grain), rock / max(bare, 1.0e-3));
+    var rock = 0.0;
+    var without_grass = soil_albedo(grain, above_water_m);
+    if IS_HILLY {
+        rock = rock_share(at, rise);
+        without_grass = mix(without_grass, rock_albedo(in.world, grain), rock);
+        rock *= bare;
+    }
     albedo = mix(albedo, without_grass, bare);
     var path = path_share(at, distance_m);
     // Feet keep the middle of the path firm and pale; along its edges crumbs of soil lie.
@@ -89,7 +94,11 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     var sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
     // Snow levels out grains and tufts.
     let relief = mix(mix(1.0, tuft_light(at), far), grain_relief(at), max(path, bare));
-    sun *= mix(mix(relief, rock_relief(at), rock), 1.0, snowy);
+    if IS_HILLY {
+        sun *= mix(mix(relief, rock_relief(at), rock), 1.0, snowy);
+    } else {
+        sun *= mix(relief, 1.0, snowy);
+    }
     // Grass along the path shades its edge.
     let toward_sun = frame.sun_direction.xz * (1.2 * SWARD_M / max(frame.sun_direction.y, 0.12));
     sun *= 1.0 - 0.7 * path * (1.0 - paved) * (1.0 - snowy) * smoothstep(-0.04, 0.06, beyond_path(at + toward_sun));

@@ -64,7 +64,7 @@ fn vertex_shoot(@builtin(vertex_index) index: u32, shoot: ShootInstance) -> Vary
     let side = normalize(cross(rotate(turn, tangent), to_eye)) * select(-1.0, 1.0, (index & 1u) == 0u);
     let pixel_rad = length(frame.up) * 2.0 * frame.inv_viewport_px.y;
     let radius_m = mix(SHOOT_RADII_M.x, SHOOT_RADII_M.y, along);
-    let share = shoot_share(distance(frame.eye_m, tree.center_m), pixel_rad);
+    let share = shoot_share(distance(frame.eye_m, tree.center_m) * pixel_rad);
     let bark = BarkVertex(
         rest,
         radius_m / share,
@@ -83,9 +83,9 @@ fn vertex_shoot(@builtin(vertex_index) index: u32, shoot: ShootInstance) -> Vary
     return Varyings(frame.view_projection * vec4(corner, 1.0), vec4(lit_bark(lit), drawn.share));
 }
 
-// Share of the shoots of a tree at that distance that are drawn, and as many times as thick. Twin: `shoot_share` of `shoots.rs`.
-fn shoot_share(distance_m: f32, pixel_rad: f32) -> f32 {
-    return clamp(SHOOT_SEEN_M / (distance_m * pixel_rad), LEAST_SHOOTS, 1.0);
+// Share of a tree's shoots that are drawn, and as many times as thick. Twin: `shoot_share` of `shoots.rs`.
+fn shoot_share(pixel_m: f32) -> f32 {
+    return clamp(SHOOT_SEEN_M / pixel_m, LEAST_SHOOTS, 1.0);
 }
 
 @fragment
