@@ -3,14 +3,22 @@
 //! Objects and the limbs of walkers for other programs: a mesh for each, in a frame of its own, and where that is.
 
 use glam::{Quat, Vec3};
+use windfall_core::scene::Finish;
 use windfall_core::solid::{LIMBS, Solid};
 use windfall_render::objects::meshes::mesh_of;
 
 use super::Frame;
 use super::plain::Plain;
 
-/// Roughness of all of them.
-const ROUGHNESS: f32 = 0.9;
+/// Roughness of a material.
+fn roughness(finish: Finish) -> f32 {
+    match finish {
+        Finish::Stone => 0.9,
+        Finish::Wood => 0.7,
+        Finish::Metal => 0.4,
+        Finish::Glass => 0.05,
+    }
+}
 
 /// A solid part of a scene as a mesh.
 #[derive(Clone, Debug)]
@@ -28,21 +36,22 @@ pub(super) struct SolidPart {
     solid: Solid,
 }
 
-/// A colour of solid parts.
+/// A colour and material of solid parts.
 #[derive(Clone, Debug)]
 pub(super) struct SolidPaint {
     name: String,
     color: Vec3,
+    finish: Finish,
 }
 
 impl SolidPaint {
-    /// The material of this colour.
+    /// It as other programs have it.
     pub(super) fn plain(&self) -> Plain<'_> {
-        Plain { name: &self.name, color: self.color.to_array(), roughness: ROUGHNESS }
+        Plain { name: &self.name, color: self.color.to_array(), roughness: roughness(self.finish) }
     }
 }
 
-/// Parts of the solids of a scene, objects before limbs, and their colours.
+/// Parts of the solids of a scene, objects before limbs, and their materials.
 pub(super) fn solid_parts(solids: &[Solid]) -> (Vec<SolidPart>, Vec<SolidPaint>) {
     let mut paints: Vec<SolidPaint> = Vec::new();
     let objects = solids.iter().filter(|solid| solid.limb().is_none()).count();
@@ -51,8 +60,10 @@ pub(super) fn solid_parts(solids: &[Solid]) -> (Vec<SolidPart>, Vec<SolidPaint>)
             Some(limb) => format!("Walker_{}_{}", limb / LIMBS.len(), limb % LIMBS.len()),
             None => format!("Object_{number}"),
         };
-        let material = paints.iter().position(|paint| paint.color == solid.color).unwrap_or_else(|| {
-            paints.push(SolidPaint { name: format!("solid_{}", paints.len()), color: solid.color });
+        let is_own = |paint: &SolidPaint| (paint.color, paint.finish) == (solid.color, solid.finish);
+        let material = paints.iter().position(is_own).unwrap_or_else(|| {
+            let name = format!("solid_{}", paints.len());
+            paints.push(SolidPaint { name, color: solid.color, finish: solid.finish });
             paints.len() - 1
         });
         part(name, material, solid.clone())
@@ -120,7 +131,7 @@ mod tests {
         let scene = Scene { objects, walkers: vec![Walker::default()], ..Scene::default() };
         let (parts, paints) = solid_parts(&solids_of(&scene).expect("shapes without files"));
         assert_eq!(parts.len(), 2 + LIMBS.len(), "all of them");
-        assert_eq!(parts[0].material, parts[1].material, "one colour");
+        assert_eq!(parts[0].material, parts[1].material, "one colour and material");
         assert!(paints.len() < parts.len(), "{} colours", paints.len());
         assert_eq!((&*parts[1].name, &*parts[2].name), ("Object_1", "Walker_0_0"), "names");
         assert!(!parts[0].moves() && parts[2].moves(), "who moves");
@@ -128,5 +139,18 @@ mod tests {
             let away = Vec3::from(parts[0].positions_m[*at as usize]).length();
             assert!((away - 0.5).abs() < 1.0e-6, "a corner {away} m from the middle of the ball");
         }
+    }
+
+    #[test]
+    fn other_materials_of_one_colour_are_others() {
+        let objects = Finish::ALL.map(|finish| Object { finish, ..Object::default() });
+        let scene = Scene { objects: objects.to_vec(), ..Scene::default() };
+        let (parts, paints) = solid_parts(&solids_of(&scene).expect("shapes without files"));
+        assert_eq!(paints.len(), Finish::ALL.len(), "a material each");
+        let roughness = |number: usize| paints[parts[number].material].plain().roughness;
+        assert!(
+            (1..4).all(|number| roughness(number) < roughness(number - 1)),
+            "stone is rough, glass smooth"
+        );
     }
 }

@@ -48,7 +48,9 @@ pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use named_files::NamedFiles;
 pub use nest::{Nest, ParticleEvent, Space};
-pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
+pub use object::{
+    Finish, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker,
+};
 pub use particle_look::{Look, LookKind, LookSample, MAX_BLOBS, MAX_LIGHTS, Ribbon, lone_blob_radius};
 pub use particles::{
     Air, Bounds, Direction, History, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,

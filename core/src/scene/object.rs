@@ -89,6 +89,25 @@ pub enum ObjectMotion {
     Path(Vec<ObjectKey>),
 }
 
+/// Material of an object's surface, as it is drawn and exported. Leaves find no difference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Finish {
+    /// Stone, plaster or concrete with the marks of weather.
+    #[default]
+    Stone,
+    /// Boards with their grain along the longest edge.
+    Wood,
+    /// Painted or bare metal, smooth enough to glint.
+    Metal,
+    /// Panes that mirror what is before them.
+    Glass,
+}
+
+impl Finish {
+    /// All materials.
+    pub const ALL: [Self; 4] = [Self::Stone, Self::Wood, Self::Metal, Self::Glass];
+}
+
 /// A solid thing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -111,6 +130,8 @@ pub struct Object {
     pub open: f32,
     /// Reflectance of its surface, linear red, green and blue, each 0 to 1.
     pub color: Vec3,
+    /// Material of its surface.
+    pub finish: Finish,
 }
 
 impl Default for Object {
@@ -125,6 +146,7 @@ impl Default for Object {
             restitution: 0.1,
             open: 0.0,
             color: Vec3::new(0.32, 0.29, 0.25),
+            finish: Finish::Stone,
         }
     }
 }
@@ -139,10 +161,17 @@ pub struct Walker {
     pub speed_m_s: f32,
     /// Time at which the walk begins in seconds, 0 to 86400.
     pub start_s: f32,
+    /// Reflectance of the jacket, linear red, green and blue, each 0 to 1.
+    pub color: Vec3,
 }
 
 impl Default for Walker {
     fn default() -> Self {
-        Self { way_m: vec![Vec2::new(-5.0, 0.0), Vec2::new(5.0, 0.0)], speed_m_s: 1.4, start_s: 0.0 }
+        Self {
+            way_m: vec![Vec2::new(-5.0, 0.0), Vec2::new(5.0, 0.0)],
+            speed_m_s: 1.4,
+            start_s: 0.0,
+            color: Vec3::new(0.28, 0.08, 0.05),
+        }
     }
 }

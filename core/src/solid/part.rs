@@ -11,7 +11,7 @@ use super::faces::Faces;
 use super::walk::{Gait, LIMBS, Limb};
 use crate::SceneError;
 use crate::scene::keyed::{Key, numbers_at};
-use crate::scene::{Object, ObjectFriction, ObjectMotion, ObjectShape, Scene};
+use crate::scene::{Finish, Object, ObjectFriction, ObjectMotion, ObjectShape, Scene};
 use crate::surface::Surface;
 
 /// Place and orientation of a solid part.
@@ -37,6 +37,8 @@ pub struct Solid {
     pub open: f32,
     /// Reflectance, linear red, green and blue.
     pub color: Vec3,
+    /// Material of its surface.
+    pub finish: Finish,
     path: Path,
 }
 
@@ -77,7 +79,8 @@ pub fn solids_of(scene: &Scene) -> Result<Vec<Solid>, SceneError> {
             friction: WALKER_FRICTION,
             restitution: WALKER_RESTITUTION,
             open: 0.0,
-            color: limb.color(),
+            color: limb.color(walker.color),
+            finish: Finish::Stone,
             path: Path::Limb { gait: gait.clone(), limb },
         }));
     }
@@ -106,6 +109,7 @@ impl Solid {
             restitution: object.restitution,
             open: object.open,
             color: object.color,
+            finish: object.finish,
             path,
         }
     }
@@ -124,6 +128,7 @@ impl Solid {
             restitution,
             open: 0.0,
             color: Vec3::ZERO,
+            finish: Finish::Stone,
             path: Path::Still(pose),
         }
     }

@@ -124,12 +124,12 @@ impl Limb {
         ObjectShape::Capsule { radius_m, length_m }
     }
 
-    /// Reflectance of a limb: boots, trousers, coat and skin.
-    pub(super) fn color(self) -> Vec3 {
+    /// Reflectance of a limb of somebody in a jacket of some reflectance: boots, trousers, jacket and skin.
+    pub(super) fn color(self, jacket: Vec3) -> Vec3 {
         match self {
             Self::Boot(_) => Vec3::new(0.09, 0.05, 0.03),
             Self::Shank(_) | Self::Thigh(_) => Vec3::new(0.05, 0.07, 0.12),
-            Self::Arm(_) | Self::Trunk => Vec3::new(0.28, 0.08, 0.05),
+            Self::Arm(_) | Self::Trunk => jacket,
             Self::Head => Vec3::new(0.45, 0.27, 0.18),
         }
     }
@@ -298,6 +298,7 @@ mod tests {
             way_m: vec![Vec2::new(0.0, 0.0), Vec2::new(10.0, 0.0), Vec2::new(10.0, 8.0)],
             speed_m_s: 1.4,
             start_s: 2.0,
+            ..Walker::default()
         })
     }
 

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The look of a walker's limbs: tapered where a body is, and joined smoothly where they meet.
+//! Surfaces of objects, and the look of a walker's limbs: tapered where a body is, and joined smoothly where they meet.
 
+use windfall_core::scene::Finish;
 use windfall_core::shared_constants;
 use windfall_core::solid::Limb;
 
 shared_constants! {
     /// Limbs of a body.
     pub(super) const BODY_LIMBS: u32 = 10;
-    /// Surface of an object: stone, wood or metal by its colour alone.
-    pub(super) const OBJECT_SURFACE: u32 = 0;
+    /// Stone, plaster or concrete with the marks of weather.
+    const STONE_SURFACE: u32 = 0;
     /// Woven cloth.
     pub(super) const CLOTH_SURFACE: u32 = 1;
     /// A sleeve with a hand at its lower end.
@@ -22,8 +23,24 @@ shared_constants! {
     pub(super) const SHANK_SURFACE: u32 = 5;
     /// Trousers under the hem of a jacket.
     pub(super) const THIGH_SURFACE: u32 = 6;
+    /// Boards with their grain along the longest edge.
+    const WOOD_SURFACE: u32 = 7;
+    /// Painted or bare metal.
+    const METAL_SURFACE: u32 = 8;
+    /// Panes that mirror the sky.
+    const GLASS_SURFACE: u32 = 9;
     /// Number of the limb that a jacket has its colour of.
     pub(super) const TRUNK_LIMB: u32 = 8;
+}
+
+/// Number of the surface of an object of some material.
+pub(super) fn surface_of(finish: Finish) -> u32 {
+    match finish {
+        Finish::Stone => STONE_SURFACE,
+        Finish::Wood => WOOD_SURFACE,
+        Finish::Metal => METAL_SURFACE,
+        Finish::Glass => GLASS_SURFACE,
+    }
 }
 
 /// A limb as it is drawn: within some two centimetres of the capsule that leaves meet.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Objects and those who walk: rough surfaces with the marks of weather, and clothes.
+// Objects and those who walk: stone with the marks of weather, boards, metal and panes, and clothes.
 
 #import frame/fire_light
 #import frame/light
@@ -89,6 +89,25 @@ fn nearest_limb(object: ObjectRecord, at: vec3<f32>) -> u32 {
     return nearest;
 }
 
+// Place on boards in metres, along their grain and across it.
+fn board_place(object: ObjectRecord, local: vec3<f32>) -> vec2<f32> {
+    let half = object.inner_m;
+    if half.y >= max(half.x, half.z) {
+        return vec2(local.y, local.x + 0.7 * local.z);
+    }
+    return select(vec2(local.z, local.x + 0.7 * local.y), vec2(local.x, local.z + 0.7 * local.y), half.x >= half.z);
+}
+
+// Edges in metres of panes that hang a little differently each.
+const PANE_M: vec2<f32> = vec2(1.46, 1.85);
+
+// Random number, 0 to 1, of the pane at a place in the frame of a part.
+fn pane_random(local: vec3<f32>, shares: vec3<f32>, salt: u32) -> f32 {
+    let across = select(local.x, local.z, shares.x > shares.z);
+    let pane = vec2<i32>(floor(vec2(across, local.y) / PANE_M));
+    return unit_from(hash_u32(bitcast<u32>(pane.x) + hash_u32(bitcast<u32>(pane.y) + salt)));
+}
+
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let pixel_m = max(length(dpdx(in.standing)), length(dpdy(in.standing)));
@@ -115,9 +134,14 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // Heights of the relief in metres: soft folds, grains and pits.
     var relief_m = vec4(0.0);
     var relief_per_m = vec3(FINE_PER_M);
+    // Share that is mirrored head-on and, besides, at a grazing view, how rough it mirrors, and how narrow the glint of the sun is.
     var gloss = 0.03;
+    // Cloth and skin are too rough to mirror the sky at their outlines.
+    var grazing = select(0.3, 0.05, object.joined != 0u);
+    var roughness = 0.8;
+    var shine = 14.0;
     switch object.surface {
-        case OBJECT_SURFACE: {
+        case STONE_SURFACE: {
             let grain = fine.b - 0.5;
             let spots = middle.a - 0.5;
             albedo *= 1.0 + 0.55 * (wide.r - 0.5) + 0.5 * grain + 0.35 * spots;
@@ -134,6 +158,39 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
             // Edges are rubbed.
             albedo *= 1.0 + 0.22 * in.edge * (0.5 + middle.a);
             relief_m = vec4(0.006, 0.009, 0.0005, 0.0015);
+        }
+        case WOOD_SURFACE: {
+            let board = board_place(object, local) + object.own * vec2(2.9, 1.3);
+            let grain = noise_at(board * vec2(0.55, 9.0) + vec2(0.0, 0.5 * wide.r), level_of(9.0 * pixel_m));
+            let rings = noise_at(board * vec2(0.22, 2.6) + vec2(0.0, 0.4 * middle.r), level_of(2.6 * pixel_m));
+            albedo *= 1.0 + 0.7 * (grain.b - 0.5) + 0.7 * (rings.r - 0.5) + 0.25 * (wide.r - 0.5);
+            // Sun and rain turn wood grey, most where they stand on it; cracks open along the grain.
+            let grey = (0.25 + 0.35 * smoothstep(0.4, 0.9, smooth_normal.y)) * smoothstep(0.3, 0.7, wide.g + 0.4 * (rings.g - 0.5));
+            albedo = mix(albedo, vec3(luminance(albedo)) * vec3(1.02, 1.0, 0.95), grey);
+            albedo *= 1.0 - 0.55 * smoothstep(0.66, 0.74, grain.g);
+            albedo *= 1.0 + 0.18 * in.edge * (0.5 + middle.a);
+            gloss = 0.04;
+        }
+        case METAL_SURFACE: {
+            let rust = smoothstep(0.72, 0.84, middle.g + 0.35 * (fine.g - 0.5) + 0.06 * smoothstep(0.3, 0.0, height));
+            albedo *= 1.0 + 0.25 * (wide.r - 0.5) + 0.12 * (fine.b - 0.5);
+            albedo = mix(albedo, vec3(0.13, 0.055, 0.025) * (0.7 + 0.6 * fine.a), 0.55 * rust);
+            albedo *= 1.0 + 0.5 * in.edge * (0.5 + middle.a);
+            gloss = mix(0.10, 0.03, rust);
+            grazing = 0.55;
+            roughness = mix(0.42, 0.8, rust);
+            shine = mix(48.0, 14.0, rust);
+        }
+        case GLASS_SURFACE: {
+            // Curtains behind some panes; dirt along the lower edges.
+            let curtain = step(0.62, pane_random(local, shares, 1u)) * (0.5 + 0.5 * noise_at(vec2(place.x + place.z, 0.05 * place.y) * 3.0, level_of(3.0 * pixel_m)).g);
+            albedo = mix(albedo, vec3(0.16, 0.15, 0.13), 0.6 * curtain) * (0.9 + 0.3 * (wide.r - 0.5));
+            relief_m = vec4(0.0030, 0.0020, 0.0, 0.0);
+            relief_per_m = vec3(0.35);
+            gloss = 0.06;
+            grazing = 0.9;
+            roughness = 0.1;
+            shine = 900.0;
         }
         case LEATHER_SURFACE: {
             albedo *= 1.0 + 0.6 * (fine.a - 0.5);
@@ -188,7 +245,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let distance_m = distance(in.world, frame.eye_m);
     let rise = noise_rise(bent * relief_per_m, shares, level_of(relief_per_m.y * pixel_m), relief_m) * relief_per_m;
     let along = rise - local_normal * dot(rise, local_normal);
-    let normal = rotate(object.turn, normalize(local_normal - along));
+    var bent_normal = local_normal - along;
+    if object.surface == GLASS_SURFACE {
+        let hang = vec3(pane_random(local, shares, 2u), pane_random(local, shares, 3u), pane_random(local, shares, 4u)) - 0.5;
+        bent_normal += 0.035 * (hang - local_normal * dot(hang, local_normal));
+    }
+    let normal = rotate(object.turn, normalize(bent_normal));
 
     let to_eye = normalize(frame.eye_m - in.world);
     let light = frame.sun_direction;
@@ -211,10 +273,9 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     var color = albedo * (sun * facing + ambient_light(normal) * open * sky_openness(in.world));
     color += albedo * fire_light(in.world, normal);
     let half_way = normalize(light + to_eye);
-    color += sun * gloss * 0.5 * pow(max(dot(normal, half_way), 0.0), 14.0) * facing;
-    // Cloth and skin are too rough to mirror the sky at their outlines.
-    let grazing = select(0.3, 0.05, object.joined != 0u);
+    color += sun * gloss * (0.036 * shine) * pow(max(dot(normal, half_way), 0.0), shine) * facing;
     let fresnel = gloss + grazing * pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 5.0);
-    color += sky_reflection(reflect(-to_eye, normal), 0.8) * fresnel * open * 0.6;
+    let mirrored = sky_reflection(reflect(-to_eye, normal), roughness) * mix(1.0, 0.6, smoothstep(0.1, 0.8, roughness));
+    color += mirrored * fresnel * open;
     return vec4(haze(color, in.world), 1.0);
 }

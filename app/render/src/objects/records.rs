@@ -8,7 +8,7 @@ use glam::{Quat, Vec3};
 use windfall_core::shared_struct;
 use windfall_core::solid::{LIMBS, Limb, Solid};
 
-use super::body::{LimbLook, OBJECT_SURFACE};
+use super::body::{LimbLook, surface_of};
 use super::meshes::{SolidMeshes, mesh_size};
 use super::solid_mesh::SolidVertex;
 use crate::gpu::pipeline::buffer_entry;
@@ -207,7 +207,7 @@ fn record(at: u32, own: f32, solid: &Solid) -> ObjectRecord {
         inner_m: size.inner_m.to_array(),
         own,
         color: solid.color.to_array(),
-        surface: look.map_or(OBJECT_SURFACE, |look| look.surface),
+        surface: look.map_or(surface_of(solid.finish), |look| look.surface),
         turn: Quat::IDENTITY.to_array(),
         body: at - number,
         joined: solid.limb().map_or(0, joined),

@@ -180,7 +180,7 @@ fn somebody_who_walks_is_blurred_where_he_moves() {
             scene.view.camera.target_m = Vec3::new(0.0, 1.0, 0.0);
             scene.view.camera.vertical_fov_deg = camera.vertical_fov_deg;
             let way_m = vec![Vec2::new(-3.0, 0.0), Vec2::new(6.0, 0.0)];
-            scene.walkers = vec![Walker { way_m, speed_m_s: 2.0, start_s: 0.0 }];
+            scene.walkers = vec![Walker { way_m, speed_m_s: 2.0, ..Walker::default() }];
         });
         bench.draw(0, 0.0, MIDDLE_S - 0.1);
         bench.draw(0, 0.0, MIDDLE_S)

@@ -5,7 +5,7 @@
 use glam::{Vec2, Vec3};
 use image::RgbaImage;
 use windfall_core::Scene;
-use windfall_core::scene::{Exposure, Object, ObjectKey, ObjectMotion, ObjectShape, Walker};
+use windfall_core::scene::{Exposure, Finish, Object, ObjectKey, ObjectMotion, ObjectShape, Walker};
 
 use super::{Bench, SIZE, bench, differing};
 
@@ -83,7 +83,7 @@ fn objects_and_walkers_move_with_time() {
     let mut walk = bench(|scene| {
         with_exposure(scene);
         let way_m = vec![Vec2::new(-2.0, 2.0), Vec2::new(2.0, 2.0)];
-        scene.walkers = vec![Walker { way_m, speed_m_s: 1.0, start_s: 0.0 }];
+        scene.walkers = vec![Walker { way_m, speed_m_s: 1.0, ..Walker::default() }];
     });
     let mut empty = bench(with_exposure);
     for (name, moving) in [("an object", &mut gate), ("a walker", &mut walk)] {
@@ -140,4 +140,53 @@ fn an_object_out_of_sight_changes_little() {
     let (with, without) = (picture_at(&mut behind, 0.0), picture_at(&mut empty, 0.0));
     let seen = differing(&with, &without);
     assert!(seen < 5, "{seen} pixels differ");
+}
+
+/// A ball of some material and reflectance, and the brightness of the rim at its upper edge.
+fn ball(finish: Finish, reflectance: f32) -> (RgbaImage, f64) {
+    let mut bench = bench(|scene| {
+        with_exposure(scene);
+        scene.view.sun.elevation_deg = 60.0;
+        scene.view.sun.azimuth_deg = 90.0;
+        let at_m = scene.view.camera.target_m;
+        let shape = ObjectShape::Sphere { radius_m: 2.5 };
+        scene.objects =
+            vec![Object { shape, at_m, color: Vec3::splat(reflectance), finish, ..Object::default() }];
+    });
+    let picture = picture_at(&mut bench, 0.0);
+    let rows = SIZE.1 / 2 - 22..SIZE.1 / 2 - 16;
+    let pixels = rows.flat_map(|y| (SIZE.0 / 2 - 10..SIZE.0 / 2 + 10).map(move |x| (x, y)));
+    let rim = pixels.map(|(x, y)| f64::from(picture.get_pixel(x, y).0[1])).sum::<f64>() / 120.0;
+    (picture, rim)
+}
+
+#[test]
+fn materials_look_otherwise_and_glass_mirrors_the_sky() {
+    let balls = Finish::ALL.map(|finish| ball(finish, 0.3).0);
+    for (number, finish) in Finish::ALL.iter().enumerate() {
+        for (other, name) in Finish::ALL.iter().enumerate().skip(number + 1) {
+            let seen = differing(&balls[number], &balls[other]);
+            assert!(seen > 10, "{finish:?} and {name:?}: {seen} pixels differ");
+        }
+    }
+    let [stone, glass] = [Finish::Stone, Finish::Glass].map(|finish| ball(finish, 0.03).1);
+    assert!(glass > stone + 10.0, "the sky in the rim of dark glass: {glass}, of stone: {stone}");
+}
+
+#[test]
+fn walkers_wear_their_own_jackets() {
+    let walker = |color: Vec3| {
+        let mut bench = bench(|scene| {
+            with_exposure(scene);
+            let way_m = vec![Vec2::new(-2.0, 3.0), Vec2::new(2.0, 3.0)];
+            scene.walkers = vec![Walker { way_m, color, ..Walker::default() }];
+        });
+        picture_at(&mut bench, 1.0)
+    };
+    let (red, blue) = (walker(Vec3::new(0.4, 0.03, 0.03)), walker(Vec3::new(0.03, 0.03, 0.4)));
+    let blueness = |picture: &RgbaImage| {
+        picture.pixels().map(|pixel| i64::from(pixel.0[2]) - i64::from(pixel.0[0])).sum::<i64>()
+    };
+    assert!(differing(&red, &blue) > 20, "they are seen");
+    assert!(blueness(&blue) > blueness(&red) + 1000, "one is blue");
 }

@@ -7,7 +7,7 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::hull::MAX_CORNERS;
 use windfall_core::scene::{
-    MAX_OBJECTS, MAX_PATH_KEYS, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, limits,
+    Finish, MAX_OBJECTS, MAX_PATH_KEYS, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, limits,
 };
 
 use super::field::{choice, field, vector};
@@ -54,6 +54,14 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     field("Open", tip, limits::OPEN).fine(0.05).show(ui, &mut object.open, own.map(|own| own.open));
     let tip = "Reflectance of its surface: linear red, green and blue";
     vector(ui, "Colour", tip, &mut object.color, own.map(|own| own.color), limits::COLOR);
+    let options = [
+        ("stone", Finish::Stone),
+        ("wood", Finish::Wood),
+        ("metal", Finish::Metal),
+        ("glass", Finish::Glass),
+    ];
+    let tip = "Material of its surface, as it is drawn";
+    choice(ui, "Finish", tip, &mut object.finish, own.map(|own| &own.finish), &options);
     motion(ui, &mut object.motion, own.map(|own| &own.motion));
 }
 

@@ -8,7 +8,7 @@ use windfall_core::Scene;
 use windfall_core::scene::{MAX_MOVERS, MAX_PATH_KEYS, ObjectMotion, Walker, limits};
 use windfall_core::solid::LIMBS;
 
-use super::field::field;
+use super::field::{field, vector};
 use super::list::List;
 
 /// Fewest corners of a way, and the distance in metres of a new one from the last.
@@ -33,6 +33,8 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     speed.show(ui, &mut walker.speed_m_s, own.map(|own| own.speed_m_s));
     let start = field("Start", "Time at which the walk begins", limits::START_S).wide();
     start.show(ui, &mut walker.start_s, own.map(|own| own.start_s));
+    let tip = "Reflectance of the jacket: linear red, green and blue";
+    vector(ui, "Jacket", tip, &mut walker.color, own.map(|own| own.color), limits::COLOR);
     let list =
         List { name: "Corner", entry: "corner of the way", fewest: FEWEST_CORNERS, most: MAX_PATH_KEYS };
     let name = |index: usize, corner: &Vec2| format!("{}: at {:.1}, {:.1}", index + 1, corner.x, corner.y);

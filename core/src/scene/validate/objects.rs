@@ -135,6 +135,7 @@ impl Walker {
             ("speed_m_s", self.speed_m_s.into(), limits::WALK_M_S),
             ("start_s", self.start_s.into(), limits::START_S),
         ])?;
+        at.vector("color", self.color, limits::COLOR)?;
         at.length("way_m", self.way_m.len(), 2, MAX_PATH_KEYS)?;
         for (index, corner) in self.way_m.iter().enumerate() {
             let place = Vec3::new(corner.x, 0.0, corner.y);

@@ -476,9 +476,9 @@ prop_compose! {
             within(limits::COULOMB).prop_map(ObjectFriction::Coulomb), within(limits::LOSS).prop_map(ObjectFriction::Loss),
         ],
         (restitution, open) in (within(limits::RESTITUTION), within(limits::OPEN)),
-        color in vector(limits::COLOR),
+        (color, finish) in (vector(limits::COLOR), select(Finish::ALL.to_vec())),
     ) -> Object {
-        Object { shape, at_m, heading_deg, tilt_deg, motion, friction, restitution, open, color }
+        Object { shape, at_m, heading_deg, tilt_deg, motion, friction, restitution, open, color, finish }
     }
 }
 
@@ -487,6 +487,7 @@ prop_compose! {
         (x_m, z_m) in (within(limits::OBJECT_AT_M), -4000.0f32..=4000.0),
         steps in vec(0.1f32..10.0, 1..5),
         (speed_m_s, start_s) in (within(limits::WALK_M_S), within(limits::START_S)),
+        color in vector(limits::COLOR),
     ) -> Walker {
         let mut corner = Vec2::new(x_m, z_m);
         let mut way_m = vec![corner];
@@ -494,7 +495,7 @@ prop_compose! {
             corner.y += step_m.max(0.11);
             way_m.push(corner);
         }
-        Walker { way_m, speed_m_s, start_s }
+        Walker { way_m, speed_m_s, start_s, color }
     }
 }
 

@@ -93,6 +93,9 @@ const REALS: &[Row] = &[
     ("objects[0].motion[0].moved_m.z", -4096.0, 4096.0, |s, v| first_key(s).moved_m.z = v),
     ("walkers[0].speed_m_s", 0.2, 3.0, |s, v| s.walkers[0].speed_m_s = v),
     ("walkers[0].start_s", 0.0, 86_400.0, |s, v| s.walkers[0].start_s = v),
+    ("walkers[0].color.x", 0.0, 1.0, |s, v| s.walkers[0].color.x = v),
+    ("walkers[0].color.y", 0.0, 1.0, |s, v| s.walkers[0].color.y = v),
+    ("walkers[0].color.z", 0.0, 1.0, |s, v| s.walkers[0].color.z = v),
     ("walkers[0].way_m[0].x", -4096.0, 4096.0, |s, v| s.walkers[0].way_m[0].x = v),
     ("walkers[0].way_m[1].z", -4096.0, 4096.0, |s, v| s.walkers[0].way_m[1].y = v),
 ];
