@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Mip chains of leaves: colour averaged in linear light by coverage, alpha scaled so that far leaves neither
-//! shrink nor swell (after Castaño, "Computing alpha mipmaps", 2010).
+//! shrink nor swell (after Castaño, "Computing alpha mipmaps", 2010). Petioles and other threads, which averaging would break into dots,
+//! stay a texel wide.
 
 use image::RgbaImage;
 
+use crate::distance::nearest_seed;
 use crate::math::{linear_from_srgb, srgb_from_linear, to_byte};
 
 /// Weight of colour without alpha: enough to pass bled colour on, too little to tint the leaf.
@@ -14,10 +16,16 @@ const FEWEST_TEXELS: usize = 64;
 /// Alpha, in bytes, from which a texel counts as covered.
 const COVERED: u8 = 128;
 
-/// A level while it is averaged: linear colour and alpha.
+/// Half width that threads of a picture do not exceed, as a share of its edge.
+const THREAD: f32 = 1.0 / 85.0;
+/// Edges in texels from which threads stay whole, and up to which they are as thin as they are: smaller leaves show shares of pixels.
+const WHOLE_THREADS: [u32; 2] = [64, 8];
+
+/// A level while it is averaged: linear colour and alpha, and alpha of threads alone.
 struct Level {
     size: u32,
     texels: Vec<[f32; 4]>,
+    threads: Vec<f32>,
 }
 
 /// All levels of a square image whose side is a power of two, from itself down to one texel.
@@ -31,12 +39,15 @@ pub(crate) fn chain(base: RgbaImage) -> Vec<RgbaImage> {
             [light(r), light(g), light(b), f32::from(a) / 255.0]
         })
         .collect();
-    let mut level = Level { size: base.width(), texels };
+    let mut level = Level { size: base.width(), texels, threads: Vec::new() };
     let share = covered_share(&base);
     let mut levels = vec![base];
     let mut scale = 1.0;
     while level.size > 1 {
         level = level.halved();
+        if level.threads.is_empty() {
+            level.threads = level.find_threads();
+        }
         if level.texels.len() >= FEWEST_TEXELS {
             scale = level.scale_for(share);
         }
@@ -94,7 +105,15 @@ impl Level {
                 [sum[0] / weights, sum[1] / weights, sum[2] / weights, sum[3]]
             })
             .collect();
-        Self { size: self.size / 2, texels }
+        let widest = |corner: usize| {
+            let four = [corner, corner + 1, corner + stride, corner + stride + 1];
+            four.iter().map(|&at| self.threads[at]).fold(0.0, f32::max)
+        };
+        let threads = match self.threads.len() {
+            0 => Vec::new(),
+            _ => (0..half * half).map(|i| widest(i / half * 2 * stride + i % half * 2)).collect(),
+        };
+        Self { size: self.size / 2, texels, threads }
     }
 
     /// Factor on alpha with which a share of texels is covered.
@@ -115,11 +134,30 @@ impl Level {
         }
     }
 
+    /// Alpha where the level is thinner than a disc of [`THREAD`]: what opening it by that disc takes away, but for rims.
+    fn find_threads(&self) -> Vec<f32> {
+        let size = self.size as usize;
+        let reach = THREAD * size as f32;
+        let (depth, _) = nearest_seed(size, size, |at| self.texels[at][3] < 0.5);
+        let (away, _) = nearest_seed(size, size, |at| depth.data[at] > reach);
+        let rim = reach + 1.5;
+        self.texels
+            .iter()
+            .zip(&away.data)
+            .map(|(texel, &away)| if away > rim { texel[3] } else { 0.0 })
+            .collect()
+    }
+
     /// The level in bytes.
     fn to_image(&self, scale: f32) -> RgbaImage {
+        let [whole, thin] = WHOLE_THREADS.map(|edge| (edge as f32).log2());
+        let wholeness = (((self.size as f32).log2() - thin) / (whole - thin)).clamp(0.0, 1.0);
         RgbaImage::from_fn(self.size, self.size, |x, y| {
-            let [r, g, b, a] = self.texels[y as usize * self.size as usize + x as usize];
-            image::Rgba([srgb_from_linear(r), srgb_from_linear(g), srgb_from_linear(b), to_byte(a * scale)])
+            let at = y as usize * self.size as usize + x as usize;
+            let [r, g, b, a] = self.texels[at];
+            let covered = a * scale;
+            let alpha = covered.max(covered + (self.threads[at] - covered) * wholeness);
+            image::Rgba([srgb_from_linear(r), srgb_from_linear(g), srgb_from_linear(b), to_byte(alpha)])
         })
     }
 }
@@ -150,6 +188,35 @@ mod tests {
             let found = covered_share(level);
             assert!((found - share).abs() < 0.02, "{} px: {found} covered, expected {share}", level.width());
         }
+    }
+
+    /// A disc on a slanted stalk, five texels wide.
+    fn lollipop() -> RgbaImage {
+        RgbaImage::from_fn(256, 256, |x, y| {
+            let (x, y) = (x as f32 - 127.5, y as f32 - 127.5);
+            let on_stalk = y > 0.0 && (x - 0.4 * y).abs() < 2.5;
+            let on_disc = x * x + (y + 40.0) * (y + 40.0) < 3600.0;
+            Rgba([120, 60, 20, if on_stalk || on_disc { 255 } else { 0 }])
+        })
+    }
+
+    #[test]
+    fn a_petiole_is_not_broken_into_dots() {
+        let levels = chain(lollipop());
+        for level in levels.iter().filter(|level| (64..=128).contains(&level.width())) {
+            let rows = level.width() * 5 / 8..level.width() - 1;
+            let broken =
+                rows.clone().filter(|&y| (0..level.width()).all(|x| level.get_pixel(x, y)[3] < COVERED));
+            assert_eq!(broken.count(), 0, "at {} px of a side some rows show no stalk", level.width());
+            let wide = rows.flat_map(|y| (0..level.width()).map(move |x| (x, y)));
+            let texels = wide.filter(|&(x, y)| level.get_pixel(x, y)[3] >= COVERED).count();
+            let rows = (level.width() * 3 / 8) as usize;
+            assert!(texels <= 3 * rows.max(1), "{texels} texels in {rows} rows of {} px", level.width());
+        }
+        let far = &levels[levels.len() - 4];
+        assert!((1..8).all(|y| (0..8).any(|x| far.get_pixel(x, y)[3] > 0)), "shares of it are left far away");
+        let row = (0..8).map(|x| u32::from(far.get_pixel(x, 7)[3])).sum::<u32>();
+        assert!(row < 64, "where all is a few texels it is as thin as it is: {row}");
     }
 
     #[test]
