@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{contenders, falling, flying, time_steps, world};
+use windfall_benches::{contenders, falling, flying, sized, time_steps, world};
 
 /// Steps after which the world begins anew: slow bodies have not landed by then, nor fast ones lost their spread.
 const STEPS: u64 = 600;
@@ -15,12 +15,13 @@ fn flight(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("flight");
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for leaves in [100_000, 1_000_000] {
-        group.throughput(Throughput::Elements(leaves.into()));
+    for whole in [100_000, 1_000_000] {
+        group.throughput(Throughput::Elements(whole.into()));
+        let leaves = sized(whole);
         for (name, scene) in [("synthesised", falling(leaves)), ("bodies", flying(leaves))] {
             let start = world(&scene);
             for mut simulator in contenders(&start) {
-                let id = BenchmarkId::new(format!("{name}/{}", simulator.info().backend), leaves);
+                let id = BenchmarkId::new(format!("{name}/{}", simulator.info().backend), whole);
                 group.bench_function(id, |bencher| {
                     bencher.iter_custom(|count| {
                         let mut elapsed = Duration::ZERO;

@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{contenders, falling, flying, littered, stepped, time_steps, world};
+use windfall_benches::{contenders, falling, flying, littered, sized, stepped, time_steps, world};
 use windfall_core::device::leaf::wake::COVER_INTERVAL;
 use windfall_core::{Scene, Simulator, World};
 
@@ -46,16 +46,19 @@ fn time_deep(simulator: &mut dyn Simulator, before: &World, count: u64) -> Durat
 }
 
 fn litter(criterion: &mut Criterion) {
+    let leaves = sized(LEAVES);
     let mut group = criterion.benchmark_group("litter");
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
-    group.sampling_mode(SamplingMode::Flat).sample_size(10).throughput(Throughput::Elements(LEAVES.into()));
+    group.sampling_mode(SamplingMode::Flat).sample_size(10).throughput(Throughput::Elements(leaves.into()));
+    // As many leaves on a square metre however many there are.
+    let [loose_m, deep_m] = [LOOSE_M, DEEP_M].map(|edge_m| edge_m * (leaves as f32 / LEAVES as f32).sqrt());
     let worlds = [
-        ("falling", world(&falling(LEAVES))),
-        ("bodies", world(&flying(LEAVES))),
-        ("calm", settled(&littered(LEAVES, LOOSE_M, 0.0), SETTLED_STEPS)),
-        ("breeze", settled(&littered(LEAVES, LOOSE_M, 3.0), SETTLED_STEPS)),
-        ("gale", settled(&littered(LEAVES, LOOSE_M, 18.0), SETTLED_STEPS)),
-        ("deep", settled(&littered(LEAVES, DEEP_M, DEEP_M_S), DEEP_START - COVER_INTERVAL)),
+        ("falling", world(&falling(leaves))),
+        ("bodies", world(&flying(leaves))),
+        ("calm", settled(&littered(leaves, loose_m, 0.0), SETTLED_STEPS)),
+        ("breeze", settled(&littered(leaves, loose_m, 3.0), SETTLED_STEPS)),
+        ("gale", settled(&littered(leaves, loose_m, 18.0), SETTLED_STEPS)),
+        ("deep", settled(&littered(leaves, deep_m, DEEP_M_S), DEEP_START - COVER_INTERVAL)),
     ];
     for (name, world) in &worlds {
         for mut simulator in contenders(world) {

@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{attracting, contenders, driven_sparks, free_sparks, sparks, time_steps, world};
+use windfall_benches::{
+    attracting, contenders, driven_sparks, free_sparks, sized, sparks, time_steps, world,
+};
 use windfall_core::arith::Vec3;
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
@@ -91,8 +93,8 @@ fn main() {
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3));
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     group.throughput(Throughput::Elements(SPARKS.into()));
-    on_backends(&mut group, "free", &world(&free_sparks(SPARKS)));
-    for (name, scene) in [("sparks", sparks(SPARKS)), ("driven", driven_sparks(SPARKS))] {
+    on_backends(&mut group, "free", &world(&free_sparks(sized(SPARKS))));
+    for (name, scene) in [("sparks", sparks(sized(SPARKS))), ("driven", driven_sparks(sized(SPARKS)))] {
         let world = world(&scene);
         on_backends(&mut group, name, &world);
         as_structs(&mut group, name, world);

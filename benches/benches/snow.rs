@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{SNOWING_STEPS, contenders, falling, snowed, snowing, stepped, world};
+use windfall_benches::{SNOWING_STEPS, contenders, falling, sized, snowed, snowing, stepped, world};
 use windfall_core::World;
 use windfall_core::device::terrain::snow::{DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_INTERVAL, SNOW_TURNS};
 
@@ -46,7 +46,8 @@ fn main() {
     on_backends(&mut group, "lying", &world(&snowed(EDGE_M, 0.0)), WHOLE_TURN);
     on_backends(&mut group, "drifting", &world(&snowed(EDGE_M, 15.0)), WHOLE_TURN);
     group.throughput(Throughput::Elements(FLAKES.into()));
-    let worlds = [("flakes", stepped(&snowing(FLAKES), SNOWING_STEPS)), ("leaves", world(&falling(FLAKES)))];
+    let flakes = sized(FLAKES);
+    let worlds = [("flakes", stepped(&snowing(flakes), SNOWING_STEPS)), ("leaves", world(&falling(flakes)))];
     for (name, world) in &worlds {
         on_backends(&mut group, name, world, 1);
         on_backends(&mut group, &format!("{name}_in_eights"), world, 8);

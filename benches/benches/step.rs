@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{contenders, scaled, time_steps, world};
+use windfall_benches::{contenders, scaled, sized, time_steps, world};
 
 fn step(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
@@ -15,7 +15,7 @@ fn step(criterion: &mut Criterion) {
     for leaves in [1_000, 10_000, 100_000, 1_000_000, 4_000_000] {
         group.throughput(Throughput::Elements(leaves.into()));
         group.sample_size(if leaves < 100_000 { 30 } else { 10 });
-        for mut simulator in contenders(&world(&scaled("million", leaves))) {
+        for mut simulator in contenders(&world(&scaled("million", sized(leaves)))) {
             let id = BenchmarkId::new(simulator.info().backend, leaves);
             group.bench_function(id, |bencher| {
                 bencher.iter_custom(|count| time_steps(simulator.as_mut(), count));

@@ -15,6 +15,15 @@ use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, describe_adapter};
 
+/// So many elements, or a hundredth of them where benches are only tested (`cargo bench -- --test`): that they run is all it shows.
+pub fn sized(whole: u32) -> u32 {
+    if std::env::args().any(|argument| argument == "--test") {
+        (whole / 100).max(whole.min(1000))
+    } else {
+        whole
+    }
+}
+
 /// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
 pub const WARM_UP_STEPS: u32 = 4;
 
