@@ -56,7 +56,7 @@ impl Quality {
         }
     }
 
-    /// True if twigs, the pictures of bark, blades of grass and glare are drawn, and near trees of the park grown.
+    /// True if twigs, the pictures of bark, blades of grass, soft shadows under leaves and glare are drawn, and near trees of the park grown.
     pub(crate) fn has_fine_parts(self) -> bool {
         self != Self::Plain
     }

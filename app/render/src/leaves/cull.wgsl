@@ -6,7 +6,7 @@
 #import gpu/numbers
 #import leaf_records
 #import leaves/species_table
-#import trees/shoot
+#import trees/branchlet
 
 @group(0) @binding(0) var<uniform> view: ViewUniform;
 @group(0) @binding(1) var<uniform> page: PageUniform;
@@ -14,7 +14,7 @@
 // Four numbers of leaves for each thread; then of each slot the copies that are kept, as bits, and from LEVEL_SHIFT on their
 // level.
 @group(0) @binding(3) var<storage, read_write> chosen: array<u32>;
-@group(0) @binding(4) var<storage, read_write> draws: array<LeafDraw, 4>;
+@group(0) @binding(4) var<storage, read_write> draws: array<LeafDraw, 5>;
 @group(0) @binding(5) var<storage, read_write> records: array<LeafRecord>;
 
 @group(1) @binding(0) var<storage, read> places: array<Place>;
@@ -173,6 +173,8 @@ fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
             draws[level] = LeafDraw(table.strips[level], before[level], 0u, 0u, base, level, vec2(0u));
             base += before[level];
         }
+        // Squares for leaves of all levels but the smallest.
+        draws[4] = LeafDraw(4u, base - before[0], 0u, 0u, before[0], 1u, vec2(0u));
     }
 }
 
@@ -206,15 +208,6 @@ fn write(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) 
         let index = word & COPY_SLOT_MASK;
         records[at] = record_of(index, sight_of(index), word >> COPY_SHIFT);
     }
-}
-
-// Height of a picture's corners at a stage, lowest and highest, in sides.
-fn height_range(layer: u32, stage: f32) -> vec2<f32> {
-    let before = min(u32(stage), LAST_BUT_ONE_STAGE);
-    let words = table.heights[2u * layer + before / 4u];
-    let beyond = table.heights[2u * layer + (before + 1u) / 4u];
-    let low = unpack2x16snorm(words[before % 4u]);
-    return 2.0 * mix(low, unpack2x16snorm(beyond[(before + 1u) % 4u]), stage - f32(before));
 }
 
 fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
@@ -268,9 +261,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let settled = select(0.0, 1.0, state == STATE_RESTING);
     let lean = settled * 0.24 * random.yz;
     attitude = quaternion_product(normalize(vec4(-lean.y, 0.0, lean.x, 2.0)), attitude);
-    let is_face_up = rotate(attitude, vec3(0.0, 1.0, 0.0)).y > 0.0;
-    let range = select(vec2(0.0), height_range(layer, stage), dry >= 0.0);
-    let lift = select(range.y, -range.x, is_face_up) * 0.7 * edge + LITTER_M * (1.0 + random.w);
+    let lift = lying_depth(layer, stage, attitude) * edge + LITTER_M * (1.0 + random.w);
     center.y += settled * lift;
 
     let looks = hash_u32(tint ^ 0x51u);

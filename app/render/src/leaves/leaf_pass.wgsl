@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves, lit point by point by the sun in front of them and through them.
 
+#import leaves/damage
 #import leaves/leaf_light
 
 struct Varyings {
@@ -9,7 +10,8 @@ struct Varyings {
     @location(0) @interpolate(perspective, centroid) world: vec3<f32>,
     @location(1) @interpolate(perspective, centroid) normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) uv: vec2<f32>,
-    @location(3) @interpolate(flat) layer: u32,
+    // Layer, and slot within the page.
+    @location(3) @interpolate(flat) layer_slot: u32,
     @location(4) @interpolate(flat) attitude: vec4<f32>,
     // Factor on the colour; open sky.
     @location(5) @interpolate(flat) tint_open: vec4<f32>,
@@ -34,7 +36,7 @@ fn vertex(in: LeafVertex) -> Varyings {
     out.clip = frame.view_projection * vec4(point.world, 1.0);
     out.normal = point.normal;
     out.uv = point.uv;
-    out.layer = record.layer_slot & LAYER_MASK;
+    out.layer_slot = record.layer_slot;
     out.attitude = point.attitude;
     let blue_open = unpack2x16float(record.blue_open);
     let outward = outward_of(record);
@@ -56,7 +58,7 @@ fn vertex(in: LeafVertex) -> Varyings {
 fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
     let front = Front(in.front.x, in.front.y, in.front.z, in.front.w);
     // Grain lies in the plane of the blade, as large on small leaves, and elsewhere on each.
-    let edge_m = front.whole_m / max(unpack2x16float(table.layers[in.layer].burning).y, 0.1);
+    let edge_m = front.whole_m / max(unpack2x16float(table.layers[in.layer_slot & LAYER_MASK].burning).y, 0.1);
     let place = in.uv * (edge_m / GRAIN_TILE_M) + in.tint_open.rg * 7.0;
     let draught = textureSample(noise, repeat_sampler, place + SMOULDER_PER_S * front.way * front.whole_s).r;
     return tissue_at(front, arrival, span, textureSample(noise, repeat_sampler, place).ab, draught);
@@ -64,9 +66,14 @@ fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
 
 @fragment
 fn fragment(in: Varyings) -> Painted {
-    let image = textureSample(images, image_sampler, in.uv, in.layer);
-    let surface = textureSample(surfaces, image_sampler, in.uv, in.layer);
+    let layer = in.layer_slot & LAYER_MASK;
+    let image = textureSample(images, image_sampler, in.uv, layer);
+    let surface = textureSample(surfaces, image_sampler, in.uv, layer);
     var alpha = blade_cover(image.a, in.uv);
+    // Leaves of one branchlet have one slot.
+    let own = hash_u32(in.layer_slot ^ hash_u32(bitcast<u32>(in.tint_open.r)));
+    let damage = damage_at(layer, own, in.uv, max(length(fwidth(in.uv)), 1.0e-4));
+    alpha *= damage.left;
     var tissue: Tissue;
     if LEAVES_BURN {
         tissue = burnt_tissue(in, surface.a, max(fwidth(surface.a), exp2(-halvings_left(in.uv))));
@@ -90,6 +97,11 @@ fn fragment(in: Varyings) -> Painted {
 
     var reflectance = blade_color(image.rgb, in.tint_open.rgb);
     var transmittance = crossing(reflectance, surface.z, in.settled);
+    if !IS_PAINTED {
+        let tissue_left = 1.0 - damage.dead;
+        reflectance = mix(DEAD * (0.6 + 0.8 * luminance(image.rgb)), reflectance, tissue_left);
+        transmittance *= mix(0.35, 1.0, tissue_left);
+    }
     if seen < 0.0 && !IS_PAINTED {
         reflectance = pale(reflectance);
     }

@@ -3,6 +3,7 @@
 //! Leaves: from a simulator's columns to records of those that a view shows, and from these to pictures of blades.
 
 pub(crate) mod burning;
+pub(crate) mod contact_pass;
 pub(crate) mod cull;
 pub(crate) mod leaf_pass;
 pub(crate) mod meshes;
@@ -44,6 +45,6 @@ pub(crate) fn shaders() -> Shaders {
     ];
     let text = declarations(lists) + &burning::light_constants() + &structs.concat();
     shaders.extend([("leaves/structs", text)]);
-    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "front", "cull", "burning", "leaf_light", "leaf_pass", "small_leaf_light", "small_leaf_pass", "motion_pass"));
+    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "front", "damage", "cull", "burning", "leaf_light", "leaf_pass", "small_leaf_light", "small_leaf_pass", "motion_pass", "contact_pass"));
     shaders
 }

@@ -24,7 +24,7 @@ const DRAW_BYTES: u64 = size_of::<LeafDraw>() as u64;
 #[derive(Debug)]
 pub(crate) struct Page {
     pub(crate) uniform: PageUniform,
-    /// Draws of the four levels.
+    /// Draws of the four levels, and of a square for each leaf that is not of the smallest.
     pub(crate) draws: wgpu::Buffer,
     pub(crate) records: wgpu::Buffer,
     /// For the culling, without the view.
@@ -126,7 +126,7 @@ impl Page {
         let most_records = records.max(1);
         let records = buffer("leaf records", u64::from(most_records) * RECORD_BYTES, storage);
         let lights = buffer("light on leaves", u64::from(most_records) * LIGHT_BYTES, storage);
-        let draws = buffer("leaf draws", LEVELS as u64 * DRAW_BYTES, storage | indirect);
+        let draws = buffer("leaf draws", (LEVELS + 1) as u64 * DRAW_BYTES, storage | indirect);
         let bind = |label, layout, buffers: &[&wgpu::Buffer]| {
             let entries: Vec<_> = (0u32..)
                 .zip(buffers)
@@ -180,11 +180,18 @@ impl Page {
     /// Draws some of its levels; all bind groups are set.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, levels: Range<usize>) {
         // Near leaves are finer: they hide the others.
-        for level in levels.rev() {
-            let at = level as u64 * DRAW_BYTES;
-            pass.set_vertex_buffer(0, self.draws.slice(at..at + DRAW_BYTES));
-            pass.draw_indirect(&self.draws, at);
-        }
+        levels.rev().for_each(|level| self.draw_one(pass, level));
+    }
+
+    /// Draws a square for each leaf that is not of the smallest; all bind groups are set.
+    pub(crate) fn draw_squares(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.draw_one(pass, LEVELS);
+    }
+
+    fn draw_one(&self, pass: &mut wgpu::RenderPass<'_>, number: usize) {
+        let at = number as u64 * DRAW_BYTES;
+        pass.set_vertex_buffer(0, self.draws.slice(at..at + DRAW_BYTES));
+        pass.draw_indirect(&self.draws, at);
     }
 }
 

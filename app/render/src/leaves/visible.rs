@@ -87,7 +87,15 @@ impl VisibleLeaves {
         }
     }
 
-    /// The same with the rows of `columns`, of which `leaf_count` are used, bound behind the records.
+    /// Draws a square for each leaf that the last culling left, but for small ones; the pipeline and bind groups 0 to 2 are set.
+    pub(crate) fn draw_squares(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for page in &self.pages {
+            pass.set_bind_group(3, &page.group, &[]);
+            page.draw_squares(pass);
+        }
+    }
+
+    /// Draws all levels with the rows of `columns`, of which `leaf_count` are used, bound behind the records; the pipeline and bind groups 0 to 2 are set.
     pub(crate) fn draw_with<const N: usize>(
         &self,
         device: &wgpu::Device,

@@ -9,6 +9,7 @@ pub(crate) mod litter;
 pub(crate) mod near_trees;
 pub(crate) mod park_trees;
 pub(crate) mod still_leaves;
+pub(crate) mod sway;
 mod tree_canvas;
 mod tree_sprite;
 
@@ -19,8 +20,10 @@ pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
     shaders.extend([(
         "park/structs",
-        declarations([tree_sprite::wgsl_constants()]) + &layout::TreeInstance::declaration(),
+        declarations([tree_sprite::wgsl_constants()])
+            + &layout::TreeInstance::declaration()
+            + &sway::wgsl_declarations(),
     )]);
-    shaders.extend(wgsl_files!("park": "far_trees"));
+    shaders.extend(wgsl_files!("park": "far_trees", "sway"));
     shaders
 }

@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Trees of the park that stand too near to be painted: grown like those of a scene, and drawn by the same passes. They stand still.
+//! Trees of the park that stand too near to be painted: grown like those of a scene, and drawn by the same passes. They sway in its wind.
 
 use glam::{Vec2, Vec3};
 use windfall_core::device::leaf::record::{STATE_ATTACHED, STATE_DORMANT, leaf_state};
 use windfall_core::leaf::Place;
-use windfall_core::scene::{Ground, Tree, TreePreset};
-use windfall_core::{Scene, World};
+use windfall_core::scene::{Ground, Tree, TreePreset, WindParameters};
+use windfall_core::{CompiledScene, Scene, World};
+use windfall_wgpu::LeafColumns;
 
 use super::layout::TreeInstance;
 use super::still_leaves::StillLeaves;
+use super::sway::{MOST_TREES, Sway};
 use super::tree_sprite::kind_of;
 use crate::leaves::cull::CullPass;
 use crate::leaves::visible::VisibleLeaves;
@@ -21,7 +23,7 @@ use crate::trees::records::TreeRecords;
 
 /// Distance from the eye up to which trees are grown, in metres, and most of them.
 const REACH_M: f32 = 42.0;
-const MOST: usize = 5;
+const MOST: usize = MOST_TREES;
 /// Leaves of a tree, each for several.
 const LEAVES: u32 = 1600;
 /// Share of their autumn that has passed.
@@ -68,11 +70,14 @@ fn preset_of(scene: &Scene, tree: &TreeInstance) -> Option<TreePreset> {
 #[derive(Debug)]
 pub(crate) struct NearTrees {
     pub(crate) bark: BarkBuffers,
-    /// Their branches at rest.
+    /// Their branches as they sway.
     pub(crate) branches: wgpu::BindGroup,
     pub(crate) records: TreeRecords,
     pub(crate) visible: VisibleLeaves,
-    pub(crate) leaves: StillLeaves,
+    leaves: StillLeaves,
+    sway: Sway,
+    /// The wind that they stand in.
+    compiled: CompiledScene,
 }
 
 impl NearTrees {
@@ -101,13 +106,33 @@ impl NearTrees {
         // Nobody counts the twigs of scenery.
         let detail = if quality == Quality::Full { Quality::Draft } else { quality };
         let group = BranchGroup::new(device, queue, &scene_trees);
+        let leaves = StillLeaves::new(device, queue, columns, count);
+        let sway = Sway::new(device, queue, &scene_trees, &leaves);
         Some(Self {
             bark: BarkBuffers::new(device, queue, &scene_trees, (eye_m, detail)),
-            branches: group.bind(device, None, &records, None),
+            branches: group.bind(device, Some(&sway.branches()), &records, None),
             visible: VisibleLeaves::new(device, queue, cull, &scene_trees, count),
-            leaves: StillLeaves::new(device, queue, columns, count),
+            leaves,
             records,
+            sway,
+            compiled: world.compiled,
         })
+    }
+
+    /// Moves the trees to a time in seconds; `grass_rad` is the phase of the grass.
+    pub(crate) fn sway(
+        &self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        (time_s, grass_rad): (f64, f32),
+    ) {
+        self.sway.run(queue, encoder, &self.compiled, (time_s, grass_rad));
+    }
+
+    /// Their leaves as columns.
+    pub(crate) fn leaves(&self) -> LeafColumns<'_> {
+        let Sway { leaf_place: place, leaf_attitude: attitude, .. } = &self.sway;
+        LeafColumns { place, attitude, ..self.leaves.columns() }
     }
 }
 
@@ -135,6 +160,14 @@ fn grove(scene: &Scene, near: &[TreeInstance]) -> Scene {
         trees: (0..).zip(near).map(tree).collect(),
         autumn: AUTUMN,
         ground,
+        seed: scene.seed,
+        dt_s: scene.dt_s,
+        wind: WindParameters {
+            vortices: Vec::new(),
+            jets: Vec::new(),
+            plumes: Vec::new(),
+            ..scene.wind.clone()
+        },
         ..Scene::default()
     }
 }

@@ -26,6 +26,11 @@ impl StillLeaves {
         Self { place, attitude, schedule, identity, count }
     }
 
+    /// Number of the leaves.
+    pub(crate) fn count(&self) -> u32 {
+        self.count
+    }
+
     /// The leaves as columns.
     pub(crate) fn columns(&self) -> LeafColumns<'_> {
         LeafColumns {

@@ -63,6 +63,15 @@ impl Renderer {
             let encoder = own.as_mut().unwrap_or(encoder);
             if std::mem::take(&mut is_first) {
                 self.sample_trails(encoder, leaves, input.time_s);
+                if let Some(near) = &self.near_trees {
+                    // Where scenery repeats, the wind of another round is not the same: trees keep their bend.
+                    let time = self
+                        .round
+                        .map_or((input.time_s, frame_seconds(input.time_s)), |(begin_s, length_s)| {
+                            (begin_s, grass_time(input.time_s - begin_s, length_s))
+                        });
+                    near.sway(&self.queue, encoder, (time.0, GRASS_RAD_S * time.1));
+                }
                 if let Some(particles) = &mut self.particle_pass {
                     let seen = (&input.camera, input.time_s, self.post.shutter_s());
                     let columns = world.particles.as_ref();
@@ -100,8 +109,7 @@ impl Renderer {
         input: &FrameInput,
         (tile, shot): (&Tile, &Shot),
     ) {
-        #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
-        let time_s = input.time_s.rem_euclid(3600.0) as f32;
+        let time_s = frame_seconds(input.time_s);
         let mut frame = self.surroundings.frame(
             input,
             time_s,
@@ -320,7 +328,7 @@ impl Renderer {
         }
         if let Some(near) = self.near_trees.as_ref().filter(|_| !cull.is_painted) {
             let view = if let LeafView::Shadow(map) = view { LeafView::SceneryShadow(map) } else { view };
-            near.visible.cull(device, encoder, cull, (&near.leaves.columns(), None, &near.records), view);
+            near.visible.cull(device, encoder, cull, (&near.leaves(), None, &near.records), view);
         }
     }
 
@@ -378,6 +386,9 @@ impl Renderer {
                 self.ground_pass.draw(pass);
                 if let Some(snow) = &self.snow_pass {
                     snow.draw(pass);
+                }
+                if let Some(contact) = &self.contact_pass {
+                    contact.draw(pass, &self.species_table, self.own_visible().into_iter());
                 }
                 if let Some(water) = &self.water_pass {
                     water.draw(pass);
@@ -454,6 +465,12 @@ fn begin_scene<'a>(
         occlusion_query_set: None,
         multiview_mask: None,
     })
+}
+
+/// Seconds of the frame as shaders have them.
+#[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
+fn frame_seconds(time_s: f64) -> f32 {
+    time_s.rem_euclid(3600.0) as f32
 }
 
 /// Time for grass that is back where it was after a round: it sways as often as is nearest to its own rate.

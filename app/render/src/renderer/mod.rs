@@ -24,6 +24,7 @@ use crate::gpu::targets::Targets;
 use crate::gpu::timing::GpuTimer;
 use crate::land::Land;
 use crate::leaves::burning::BurningPass;
+use crate::leaves::contact_pass::ContactPass;
 use crate::leaves::cull::CullPass;
 use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
@@ -95,6 +96,7 @@ pub struct Renderer {
     shade_is_old: bool,
     bark_pass: BarkPass,
     leaf_pass: LeafPass,
+    contact_pass: Option<ContactPass>,
     /// Marks the leaves that burn.
     burning: Option<BurningPass>,
     /// Passes for the time that the shutter is open.
@@ -224,6 +226,10 @@ impl Renderer {
             bark_pass: BarkPass::new(device, &frame, &light, &branches, options.quality),
             burning: BurningPass::new(device, &species_table),
             leaf_pass: LeafPass::new(device, &frame, &light, &species_table, &cull),
+            contact_pass: options
+                .quality
+                .has_fine_parts()
+                .then(|| ContactPass::new(device, &frame, &light, &species_table, &cull)),
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, scene_trees),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, queue, &frame, &light, &land),

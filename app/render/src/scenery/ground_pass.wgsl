@@ -68,9 +68,16 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let within_m = -beyond_path(at);
     let firm = smoothstep(0.1, 0.7, within_m + 0.5 * grain.y);
     let crumbs = 1.0 - smoothstep(0.0, 0.14, abs(within_m + 0.02) + 0.25 * grain.y);
-    albedo = mix(albedo, gravel_albedo(grain, above_water_m) * mix(0.72, 1.06, firm), path);
-    albedo = mix(albedo, 0.7 * soil_albedo(grain, above_water_m), 0.75 * crumbs);
+    var gravel = gravel_albedo(grain, above_water_m) * mix(0.72, 1.06, firm);
+    var stony = 1.0;
     let pixel_m = max(length(dpdx(at)), length(dpdy(at)));
+    if path > 0.0 {
+        let stones = pebbles(at, min(length(dpdx(at)), length(dpdy(at))));
+        gravel *= stones.rgb;
+        stony = mix(1.0, stones.a, path);
+    }
+    albedo = mix(albedo, gravel, path);
+    albedo = mix(albedo, 0.7 * soil_albedo(grain, above_water_m), 0.75 * crumbs);
     let paved = paved_share(at, pixel_m);
     if paved > 0.0 {
         let stone = paving(at, pixel_m) * (1.0 + dot(grain, vec3(0.35, 0.45, 0.35)));
@@ -99,6 +106,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     } else {
         sun *= mix(relief, 1.0, snowy);
     }
+    sun *= mix(stony, 1.0, max(snowy, paved));
     // Grass along the path shades its edge.
     let toward_sun = frame.sun_direction.xz * (1.2 * SWARD_M / max(frame.sun_direction.y, 0.12));
     sun *= 1.0 - 0.7 * path * (1.0 - paved) * (1.0 - snowy) * smoothstep(-0.04, 0.06, beyond_path(at + toward_sun));

@@ -168,6 +168,34 @@ fn gravel_albedo(grain: vec3<f32>, above_water_m: f32) -> vec3<f32> {
         * (0.82 + dot(grain, vec3(0.5, 0.5, 0.3)));
 }
 
+// Edges in metres of the cells that hold a stone of the path each, coarse and fine ones.
+const PEBBLE_M: vec2<f32> = vec2(0.041, 0.019);
+
+// Stones of the path in a pixel of some width in metres: factor on the albedo (rgb), and on the sunlight (a).
+fn pebbles(at: vec2<f32>, pixel_m: f32) -> vec4<f32> {
+    let toward_sun = frame.sun_direction.xz / max(frame.sun_direction.y, 0.3);
+    var out = vec4(1.0);
+    for (var size = 0u; size < 2u; size++) {
+        let seen = 1.0 - smoothstep(0.25, 0.9, pixel_m / PEBBLE_M[size]);
+        // The finer grid is turned, so that no rows of either show.
+        let turned = select(at, vec2(0.8 * at.x - 0.6 * at.y, 0.6 * at.x + 0.8 * at.y), size == 1u) / PEBBLE_M[size];
+        let cell = floor(turned);
+        let key = hash_u32(bitcast<u32>(i32(cell.x)) + hash_u32(bitcast<u32>(i32(cell.y)) + size));
+        let radius = 0.16 + 0.30 * unit_from(key);
+        let middle = radius + (1.0 - 2.0 * radius) * vec2(unit_from(hash_u32(key)), unit_from(hash_u32(key ^ 0x9du)));
+        let away = (turned - cell - middle) / radius;
+        let is_stone = (1.0 - smoothstep(0.75, 1.0, dot(away, away))) * seen;
+        let sun = select(toward_sun, vec2(0.8 * toward_sun.x - 0.6 * toward_sun.y, 0.6 * toward_sun.x + 0.8 * toward_sun.y), size == 1u);
+        // A stone's side towards the sun is bright, and what lies behind it in its shade.
+        let behind = away + 0.7 * sun;
+        let shade = (1.0 - smoothstep(0.5, 1.1, dot(behind, behind))) * (1.0 - is_stone) * seen;
+        let tint = mix(vec3(0.62, 0.60, 0.60), vec3(1.45, 1.36, 1.22), unit_from(hash_u32(key ^ 0x51u)));
+        out = mix(out, vec4(tint, clamp(1.0 + 0.55 * dot(away, sun), 0.25, 1.6)), is_stone);
+        out.a *= 1.0 - 0.6 * shade;
+    }
+    return out;
+}
+
 // Share of the path at a place, whose edge is as soft as grass or a pixel hides it.
 fn path_share(at: vec2<f32>, distance_m: f32) -> f32 {
     let softness = 0.06 + 0.004 * distance_m;

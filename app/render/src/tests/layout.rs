@@ -165,11 +165,12 @@ fn another_layout_is_noticed() {
 }
 
 /// Members of structs in buffers that are vectors with axes: colours, planes, directions and sizes.
-const WITH_AXES: [&str; 10] = [
+const WITH_AXES: [&str; 11] = [
     "ambient",
     "corner_m",
     "palette",
     "sides",
+    "bend_way",
     "path_lead",
     "paved_half_m",
     "inv_size_px",

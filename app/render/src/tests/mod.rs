@@ -3,6 +3,7 @@
 //! Draws small pictures on whatever Vulkan adapter there is. A machine without one fails these tests: Mesa's
 //! software driver is enough. The bench that all of them draw with stands here, beside the pictures of a single leaf.
 
+mod blades;
 mod blobs;
 mod burning;
 mod closure;

@@ -81,6 +81,18 @@ fn algae(albedo: vec3<f32>, normal: vec3<f32>, height_m: f32, radius_m: f32, hig
     return mix(albedo, albedo * 0.55 + vec3(0.012, 0.022, 0.004), dull * (0.25 + 0.6 * away) * (1.2 - high));
 }
 
+// Colour of old bark of some albedo on which lichen grows in crusts, grey ones and a few yellow, and moss at the foot on the side away from the sun;
+// `spots` is noise about one half, `high` of 1 on ridges.
+fn overgrown(albedo: vec3<f32>, normal: vec3<f32>, height_m: f32, old: f32, spots: vec4<f32>, high: f32) -> vec3<f32> {
+    let crust = smoothstep(0.58, 0.66, spots.r + 0.16 * (spots.b - 0.5)) * (0.35 + 0.65 * high);
+    let yellow = smoothstep(0.60, 0.66, spots.g);
+    let lichen = mix(vec3(0.235, 0.245, 0.195), vec3(0.300, 0.225, 0.045), yellow);
+    let crusted = mix(albedo, lichen * (0.75 + 0.5 * spots.a), 0.62 * crust * old);
+    let away = 0.5 - 0.5 * dot(normal.xz, frame.sun_direction.xz);
+    let foot = smoothstep(0.75, 0.0, height_m + 1.1 * (spots.g - 0.5)) * smoothstep(0.25, 0.75, away + 0.4 * (spots.r - 0.5));
+    return mix(crusted, vec3(0.040, 0.056, 0.012) * (0.6 + 0.8 * spots.b), 0.75 * foot * old);
+}
+
 // Share of a place that snow covers, thin snow what is level first; `spread` about 1.
 fn snow_on_bark(normal: vec3<f32>, snow_m: f32, spread: f32) -> f32 {
     let covers = snow_m * spread;

@@ -58,6 +58,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let crack = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5 + 0.3, uv.y * 0.21 + 0.7)).r;
     let cracked = smoothstep(0.56, 0.62, crack + 0.35 * smoothstep(1.2, 0.1, height)) * relief.a * old;
     albedo = mix(albedo, vec3(0.030, 0.026, 0.023), cracked);
+    let spots = textureSample(noise, repeat_sampler, uv * vec2(1.0, 0.7) + 0.53);
+    albedo = overgrown(albedo, in.normal, height, old, spots, surface.a);
     albedo = algae(albedo, in.normal, height, radius, surface.a);
 
     // Grooves, in the frame that the texture spans on the bark.

@@ -7,7 +7,7 @@ pub(crate) mod bark_mesh;
 pub(crate) mod bark_pass;
 pub(crate) mod bark_texture;
 pub(crate) mod branch_group;
-mod cluster;
+mod branchlet;
 mod crown;
 pub(crate) mod fruit_pass;
 mod look;
@@ -23,8 +23,8 @@ use windfall_core::layout::WgslStruct;
 use windfall_core::tree::forest::Planted;
 use windfall_core::tree::{AttachmentKind, Forest, Segment, Skeleton};
 
-pub(crate) use cluster::MAX_CLUSTER;
-pub use cluster::cluster;
+pub(crate) use branchlet::MAX_CLUSTER;
+pub use branchlet::cluster;
 pub(crate) use crown::Crown;
 pub use look::{BarkKind, Look};
 
@@ -40,10 +40,10 @@ pub(crate) fn shaders() -> Shaders {
     let snow = snow::wgsl_constants().into_iter().filter(|(name, _)| *name == "SNOW_UNIT_KG").collect();
     shaders.extend([(
         "trees/structs",
-        declarations([cluster::wgsl_constants(), shoots::wgsl_constants(), snow]) + &structs,
+        declarations([branchlet::wgsl_constants(), shoots::wgsl_constants(), snow]) + &structs,
     )]);
     shaders.extend(
-        wgsl_files!("trees": "records", "bark_shape", "bark_look", "bark_pass", "shoot", "twig_pass", "fruit_pass"),
+        wgsl_files!("trees": "records", "bark_shape", "bark_look", "bark_pass", "branchlet", "twig_pass", "fruit_pass"),
     );
     shaders
 }

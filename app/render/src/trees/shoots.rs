@@ -10,7 +10,7 @@ use windfall_core::shared_constants;
 use windfall_core::tree::{Attachment, AttachmentKind, Skeleton};
 
 use super::StandingTree;
-use super::cluster::shoot_count;
+use super::branchlet::shoot_count;
 use crate::gpu::vertex::vertex_struct;
 
 shared_constants! {

@@ -3,7 +3,7 @@
 // Twigs and the shoots that grow on them, lit at their corners: they are hardly wider than a pixel.
 
 #import trees/bark_look
-#import trees/shoot
+#import trees/branchlet
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,

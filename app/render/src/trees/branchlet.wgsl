@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Shoots of a branchlet, in the frame of the leaf that stands for it: upper side +y, tip towards +z. Lengths are in diameters of a
-// leaf. Twin: `cluster.rs`.
+// leaf. Twin: `branchlet.rs`.
 
 #import gpu/numbers
 #import trees/structs

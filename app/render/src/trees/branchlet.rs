@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Branchlet of leaves that one simulated leaf represents on its twig: shoots in a fan, with leaves to either side. Pictures
-//! set each branchlet on the device (`shoot.wgsl`); other programs are given a few to choose from.
+//! set each branchlet on the device (`branchlet.wgsl`); other programs are given a few to choose from.
 
 use glam::{Quat, Vec3, Vec4};
 use windfall_core::arith::rng::random;
@@ -44,7 +44,7 @@ pub fn cluster(count: u32, number: u32) -> impl Iterator<Item = (Vec3, Quat)> {
     })
 }
 
-/// Shoots of a branchlet of `count` leaves. Twin: `shoot_count` of `shoot.wgsl`.
+/// Shoots of a branchlet of `count` leaves. Twin: `shoot_count` of `branchlet.wgsl`.
 pub(super) fn shoot_count(count: u32) -> u32 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most count")]
     let shoots = (count as f32 / SHOOT_LEAVES).ceil() as u32;
@@ -52,7 +52,7 @@ pub(super) fn shoot_count(count: u32) -> u32 {
 }
 
 /// Place and turn of a leaf of a branchlet: random vectors within -1 to 1 of its shoot, and of its own place and turn.
-/// Twin: `on_shoot` of `shoot.wgsl`.
+/// Twin: `on_shoot` of `branchlet.wgsl`.
 fn on_shoot(count: u32, copy: u32, shoot: Vec4, place: Vec4, turn: Vec4) -> (Vec3, Quat) {
     let shoots = shoot_count(count);
     let rank = copy / shoots;
