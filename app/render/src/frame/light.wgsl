@@ -91,12 +91,21 @@ fn sky_openness(position: vec3<f32>) -> f32 {
     return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
 }
 
-// Share to which melted snow has soaked the ground at a place; beyond the rectangle as at its edge.
+// Share to which a place on the ground is wet, by rain or by melted snow that has soaked it; beyond the rectangle of snow as at its edge.
 fn wetness(at: vec2<f32>) -> f32 {
     if !HAS_SNOW {
-        return 0.0;
+        return land.wet;
     }
-    return textureSampleLevel(snow_map, clamp_sampler, (at - frame.snow_corner_m) * frame.snow_per_m, 0.0).r;
+    let melted = textureSampleLevel(snow_map, clamp_sampler, (at - frame.snow_corner_m) * frame.snow_per_m, 0.0).r;
+    return max(land.wet, melted);
+}
+
+// Share of rain that stays on leaves which hang or fly.
+const HANGING_WET: f32 = 0.7;
+
+// Share to which a leaf is wet at a place, as far as it has come to rest: melted snow soaks what lies, rain wets all.
+fn leaf_wetness(at: vec2<f32>, settled: f32) -> f32 {
+    return max(wetness(at) * settled, HANGING_WET * land.wet);
 }
 
 // Share to which snow covers leaves that hang above a place on the ground.
@@ -114,6 +123,16 @@ const FILM: f32 = 0.45;
 fn wet_reflectance(dry: vec3<f32>, wet: f32) -> vec3<f32> {
     let back = FILM * wet;
     return dry * (1.0 - back) / (1.0 - back * dry);
+}
+
+// Light of the sky and the sun's glint that a film of water mirrors on a surface that is wet to some share. The film is as smooth as `roughness` has it.
+fn film_light(normal: vec3<f32>, to_eye: vec3<f32>, sun: vec3<f32>, wet: f32, roughness: f32) -> vec3<f32> {
+    let slant = 1.0 - clamp(dot(normal, to_eye), 0.0, 1.0);
+    let fresnel = 0.02 + 0.98 * (slant * slant) * (slant * slant) * slant;
+    let half_way = normalize(frame.sun_direction + to_eye);
+    let shine = 2.0 / (roughness * roughness * roughness * roughness);
+    let glint = sun * (0.004 * min(shine, 2000.0)) * pow(max(dot(normal, half_way), 0.0), shine);
+    return wet * (fresnel * sky_reflection(reflect(-to_eye, normal), roughness) + glint);
 }
 
 // Radius around a place within which the sky is sampled, in metres.

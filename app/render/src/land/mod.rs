@@ -12,6 +12,9 @@ use windfall_core::terrain::Hills;
 /// Largest roughness length in metres of ground that is paved where its litter lies: a mown lawn has five times as much.
 const PAVED_ROUGHNESS_M: f32 = 0.001;
 
+/// Water in kg per kg of dry leaf from which all is wet: what litter holds after rain (Zagyvai-Kiss et al. 2019).
+const WET_MOISTURE: f32 = 2.0;
+
 /// Heights of a scene's ground and of the water on it.
 #[derive(Clone, Debug)]
 pub struct Land {
@@ -20,6 +23,7 @@ pub struct Land {
     hills: Option<Hills>,
     water_m: Option<f32>,
     paving: Option<Paving>,
+    wet: f32,
 }
 
 /// A rectangle of paving.
@@ -39,6 +43,7 @@ impl Land {
             hills: ground.terrain.as_ref().map(Hills::grow),
             water_m: ground.water.map(|water| water.height_m),
             paving: Paving::of(ground),
+            wet: ground.litter.map_or(0.0, |litter| (litter.moisture / WET_MOISTURE).min(1.0)),
         }
     }
 
@@ -60,6 +65,11 @@ impl Land {
     /// The paving, if there is any.
     pub(crate) fn paving(&self) -> Option<Paving> {
         self.paving
+    }
+
+    /// Share to which rain has wetted all: as far as the litter has soaked.
+    pub(crate) fn wet(&self) -> f32 {
+        self.wet
     }
 
     /// Height of the ground at a place in metres, also under water.
@@ -140,6 +150,17 @@ mod tests {
         assert_eq!(land.surface_m(13.0, -7.0), 2.0, "everywhere as high");
         assert_eq!(land.normal(5.0, 5.0), Vec3::Y, "and level");
     }
+
+    #[test]
+    fn all_is_as_wet_as_its_litter() {
+        let of = |moisture: f32| {
+            let litter = Some(Litter { moisture, ..Litter::default() });
+            Land::of(&Ground { litter, ..Ground::default() }).wet()
+        };
+        assert_eq!([of(0.0), of(1.0), of(2.0), of(4.0)], [0.0, 0.5, 1.0, 1.0], "up to what litter holds");
+        assert_eq!(Land::of(&Ground::default()).wet(), 0.0, "dry without litter");
+    }
+
     #[test]
     fn smooth_ground_is_paved_where_its_litter_lies() {
         let litter =

@@ -28,6 +28,12 @@ shared_struct! {
         paved_center_m: [f32; 2],
         /// Half of its edges; 0 without paving.
         paved_half_m: [f32; 2],
+        /// Share to which all that lies and stands there is wet.
+        wet: f32,
+        /// Unused.
+        unused: f32,
+        /// Unused.
+        unused_pair: [f32; 2],
     }
 }
 
@@ -42,6 +48,9 @@ impl LandUniform {
             water_m: land.water_m().unwrap_or(NO_WATER_M),
             paved_center_m: paving.map_or(Vec2::ZERO, |paving| paving.center_m).to_array(),
             paved_half_m: paving.map_or(Vec2::ZERO, |paving| paving.half_m).to_array(),
+            wet: land.wet(),
+            unused: 0.0,
+            unused_pair: [0.0; 2],
         }
     }
 }

@@ -105,8 +105,8 @@ fn fragment(in: Varyings) -> Painted {
     if seen < 0.0 && !IS_PAINTED {
         reflectance = pale(reflectance);
     }
-    // Melted snow soaks what lies: darker, and a film of water on it mirrors as smoothly as wax.
-    let wet = wetness(in.world.xz) * in.settled;
+    // Wet tissue is darker, and a film of water on it mirrors as smoothly as wax.
+    let wet = leaf_wetness(in.world.xz, in.settled);
     reflectance = wet_reflectance(min(reflectance, vec3(0.8)), wet);
     var wax = 1.0;
     if in.snowy > 0.0 {

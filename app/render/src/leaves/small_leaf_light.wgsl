@@ -28,7 +28,7 @@ fn light_on(record: LeafRecord) -> LeafLight {
     let light = frame.sun_direction;
     let sun = frame.sun_color * tree_shade(center).r * leaf_shadow(center + light * 0.035);
     let facing = dot(normal, light);
-    let wet = wetness(center.xz) * settled;
+    let wet = leaf_wetness(center.xz, settled);
     let lies = select(snow_on_blade(snow_on_leaves(center.xz), abs(blade.y), MEAN_AWAY, unit_from(random)), 0.0, is_free);
     let snow = lies * f32(blade.y * seen > 0.0);
     let roughness = mix(select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0), WET_ROUGHNESS, wet);

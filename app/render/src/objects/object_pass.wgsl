@@ -242,6 +242,13 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
             }
         }
     }
+    // Rain wets what it falls on, most of all what lies level, but for those who walk out of it.
+    let wet = select(land.wet * mix(0.6, 1.0, smoothstep(0.3, 0.9, smooth_normal.y)), 0.0, object.joined != 0u || object.surface == GLASS_SURFACE);
+    albedo = wet_reflectance(min(albedo, vec3(0.9)), wet);
+    gloss = max(gloss, 0.05 * wet);
+    grazing = mix(grazing, 0.7, 0.7 * wet);
+    roughness = mix(roughness, min(roughness, 0.3), wet);
+    shine = mix(shine, max(shine, 90.0), wet);
     let distance_m = distance(in.world, frame.eye_m);
     let rise = noise_rise(bent * relief_per_m, shares, level_of(relief_per_m.y * pixel_m), relief_m) * relief_per_m;
     let along = rise - local_normal * dot(rise, local_normal);

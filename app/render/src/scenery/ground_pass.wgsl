@@ -91,7 +91,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let speck = mix(smoothstep(0.12, 0.20, grain.z), 0.55, smoothstep(18.0, 45.0, distance_m));
     let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), grain.y * 1.2 + 0.4);
     albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved) * (1.0 - 0.8 * bare));
-    albedo = wet_reflectance(albedo, wetness(at));
+    let wet = wetness(at);
+    albedo = wet_reflectance(albedo, wet);
 
     // Snow beyond the rectangle on which it is simulated, and what shows of the ground within it.
     let snowy = smoothstep(0.25, 1.0, frame.snow_depth_m / (0.006 + 0.024 * (grain.y + 0.5)));
@@ -119,5 +120,16 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     color += albedo * ambient_light(normal) * mix(0.55, 0.95, max(far, path))
         * min(sky_openness(in.world), mix(0.35, 1.0, open_above(in.world, SKY_TAPS))) * open_beside(in.world);
     color += albedo * fire_light(in.world, normal) * mix(0.75, 1.0, max(far, path));
+    // Rain stands in hollows of paths and paving; between them a film makes them shine.
+    let rain = land.wet * path * (1.0 - snowy);
+    if rain > 0.0 {
+        let hollow = textureSampleLevel(noise, repeat_sampler, at * 0.16 + 0.43, 0.0).r + 0.12 * grain.y;
+        let puddle = smoothstep(0.65, 0.68, hollow) * smoothstep(0.4, 0.9, land.wet);
+        let uneven = (1.0 - puddle) * vec3(grain.x, 0.0, grain.z) * 0.22;
+        let film = film_light(normalize(normal + uneven), view, frame.sun_color * sun, rain * mix(0.42, 1.0, puddle), mix(0.34, 0.1, puddle));
+        // At a low view woods at the horizon are mirrored in place of the sky.
+        let open = min(sky_openness(in.world), mix(0.35, 1.0, open_above(in.world, SKY_TAPS))) * mix(0.3, 1.0, smoothstep(0.03, 0.24, view.y));
+        color = mix(color, 0.45 * color, puddle * rain) + film * mix(0.4, 1.0, open);
+    }
     return vec4(haze(color, in.world), 1.0);
 }

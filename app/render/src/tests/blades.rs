@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Soft shadows beneath leaves at rest, and what insects leave of blades.
+//! Soft shadows beneath leaves at rest, what insects leave of blades, and rain on all of it.
 
 use glam::Vec3;
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::device::leaf::record::{STATE_FALLING, STATE_RESTING};
-use windfall_core::scene::{Camera, Exposure};
+use windfall_core::scene::{Camera, Exposure, Litter};
 
 use super::{Drawn, bench, differing};
 use crate::with_shader_edit;
@@ -62,4 +62,24 @@ fn some_leaves_are_eaten_and_plates_are_not() {
     let eaten = differing(&none, &all);
     assert!(eaten > 3 && eaten < blade / 2, "{eaten} of {blade} pixels are eaten or dead");
     assert_eq!(all, picture("false"), "the same on a leaf in every frame");
+}
+
+#[test]
+fn rain_darkens_the_ground_and_its_film_shines_on_leaves() {
+    let picture = |moisture: f32, state: u32| {
+        let mut bench = bench(|scene| {
+            looking_down(scene);
+            scene.ground.litter = Some(Litter { moisture, ..Litter::default() });
+        });
+        bench.draw_world(Drawn { is_level: true, ..Drawn::default() }, state, 60_000, 0.0, 0.0)
+    };
+    let ground = |moisture: f32| {
+        let picture = picture(moisture, 0);
+        picture.pixels().map(|pixel| f64::from(pixel.0[1])).sum::<f64>() / picture.pixels().len() as f64
+    };
+    let [dry, damp, wet] = [0.0, 1.0, 2.0].map(ground);
+    assert!(wet + 1.0 < damp && damp + 1.0 < dry, "brightness of grass: {dry} dry, {damp} damp, {wet} wet");
+    let [dry, wet] = [0.0, 2.0].map(|moisture| picture(moisture, STATE_RESTING));
+    let seen = differing(&wet, &dry);
+    assert!(seen > 30, "{seen} pixels of leaf and ground differ");
 }

@@ -129,12 +129,14 @@ fn lit_bark(bark: BarkSurface) -> vec3<f32> {
     // Beside a trunk the sky is open to the sides; what grows out of it above is none of its shade.
     let around = bark.world + bark.smooth_normal * (bark.radius_m + 0.3);
     let open = min(bark.open, mix(0.5, 1.0, open_above(around, bark.sky_taps))) * bark.deep * foot;
-    var color = sun * bark.albedo * lit;
-    color += bark.albedo * (ambient_light(bark.normal) * open + fire_light(bark.world, bark.normal));
+    let wet = 0.85 * land.wet;
+    let albedo = wet_reflectance(bark.albedo, wet);
+    var color = sun * albedo * lit;
+    color += albedo * (ambient_light(bark.normal) * open + fire_light(bark.world, bark.normal));
     let half_way = normalize(light + to_eye);
-    color += sun * 0.012 * pow(max(dot(bark.normal, half_way), 0.0), 12.0) * max(facing, 0.0);
+    color += sun * (0.012 + 0.03 * wet) * pow(max(dot(bark.normal, half_way), 0.0), 12.0) * max(facing, 0.0);
     // Bark is dull, but at a grazing view it mirrors the sky.
-    let fresnel = 0.03 + 0.35 * pow(1.0 - clamp(dot(bark.normal, to_eye), 0.0, 1.0), 5.0);
+    let fresnel = 0.03 + (0.35 + 0.25 * wet) * pow(1.0 - clamp(dot(bark.normal, to_eye), 0.0, 1.0), 5.0);
     color += sky_reflection(reflect(-to_eye, bark.normal), 0.8) * fresnel * open;
     return haze(color, bark.world);
 }
