@@ -73,12 +73,24 @@ const PER_SWING: f32 = 8.0;
 pub(crate) struct Sway {
     uniform: wgpu::Buffer,
     trees: Vec<(Vec3, f32)>,
-    passes: [(wgpu::ComputePipeline, wgpu::BindGroup, wgpu::BindGroup, u32); 2],
+    /// For branches, bound at group 1, and for leaves, bound at group 2.
+    passes: [Moving; 2],
     branch_base: wgpu::Buffer,
     branch_pose: wgpu::Buffer,
     branch_count: u32,
     pub(super) leaf_place: wgpu::Buffer,
     pub(super) leaf_attitude: wgpu::Buffer,
+}
+
+/// A pass over rows that move.
+#[derive(Debug)]
+struct Moving {
+    pipeline: wgpu::ComputePipeline,
+    /// The bends, and the tree of each row.
+    bends: wgpu::BindGroup,
+    /// Columns at rest and as they are moved.
+    columns: wgpu::BindGroup,
+    count: u32,
 }
 
 impl Sway {
@@ -146,30 +158,27 @@ impl Sway {
         let [branch_base, branch_pose] = [&rest[0], &rest[1]].map(moved);
         let (place, attitude) = (leaves.columns().place, leaves.columns().attitude);
         let [leaf_place, leaf_attitude] = [place, attitude].map(moved);
+        let branch_count = u32::try_from(tree_of_row.len()).unwrap_or(u32::MAX);
         let passes = [
-            (
-                pipeline("sway_branches", &[Some(&own), Some(&columns)]),
-                bind("sway", &own, &[&uniform, &filled(bytemuck::cast_slice(&tree_of_row))]),
-                bind("branches", &columns, &[&rest[0], &rest[1], &branch_base, &branch_pose]),
-            ),
-            (
-                pipeline("sway_leaves", &[Some(&own), None, Some(&columns)]),
-                bind("sway", &own, &[&uniform, &filled(bytemuck::cast_slice(&tree_of_slot))]),
-                bind("leaves", &columns, &[place, attitude, &leaf_place, &leaf_attitude]),
-            ),
+            Moving {
+                pipeline: pipeline("sway_branches", &[Some(&own), Some(&columns)]),
+                bends: bind("sway", &own, &[&uniform, &filled(bytemuck::cast_slice(&tree_of_row))]),
+                columns: bind("branches", &columns, &[&rest[0], &rest[1], &branch_base, &branch_pose]),
+                count: branch_count,
+            },
+            Moving {
+                pipeline: pipeline("sway_leaves", &[Some(&own), None, Some(&columns)]),
+                bends: bind("sway", &own, &[&uniform, &filled(bytemuck::cast_slice(&tree_of_slot))]),
+                columns: bind("leaves", &columns, &[place, attitude, &leaf_place, &leaf_attitude]),
+                count: leaves.count(),
+            },
         ];
         let height = |skeleton: &windfall_core::tree::Skeleton| {
             skeleton.segments.iter().map(|segment| segment.end_m.y).fold(1.0, f32::max)
         };
-        let branch_count = u32::try_from(tree_of_row.len()).unwrap_or(u32::MAX);
-        let counts = [branch_count, leaves.count()];
-        let mut number = 0;
         Self {
             trees: scene_trees.trees.iter().map(|tree| (tree.foot_m, height(&tree.skeleton))).collect(),
-            passes: passes.map(|(pipeline, own, columns)| {
-                number += 1;
-                (pipeline, own, columns, counts[number - 1])
-            }),
+            passes,
             uniform,
             branch_base,
             branch_pose,
@@ -203,11 +212,11 @@ impl Sway {
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let mut pass = encoder
             .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("sway"), timestamp_writes: None });
-        for (index, (pipeline, own, columns, count)) in (1..).zip(&self.passes) {
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, own, &[]);
-            pass.set_bind_group(index, columns, &[]);
-            pass.dispatch_workgroups(count.div_ceil(SWAY_GROUP_SIZE), 1, 1);
+        for (index, moving) in (1..).zip(&self.passes) {
+            pass.set_pipeline(&moving.pipeline);
+            pass.set_bind_group(0, &moving.bends, &[]);
+            pass.set_bind_group(index, &moving.columns, &[]);
+            pass.dispatch_workgroups(moving.count.div_ceil(SWAY_GROUP_SIZE), 1, 1);
         }
     }
 }

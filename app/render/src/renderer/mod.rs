@@ -5,6 +5,7 @@
 mod changes;
 mod drawing;
 pub(crate) mod scene;
+mod scene_pass;
 mod timed;
 
 use glam::{Vec2, Vec3};
