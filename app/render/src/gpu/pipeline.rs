@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Layouts of pipelines and bind groups.
+//! Layouts of pipelines and bind groups, and groups of buffers.
 
 /// Pipeline layout from bind group layouts; `None` leaves a place empty.
 pub(crate) fn layout(
@@ -12,6 +12,20 @@ pub(crate) fn layout(
         bind_group_layouts: groups,
         immediate_size: 0,
     })
+}
+
+/// Bind group of whole buffers, at bindings from 0 on.
+pub(crate) fn bind_buffers(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    buffers: &[&wgpu::Buffer],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0u32..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }
 
 /// Stages that see textures, samplers and uniform blocks.

@@ -5,7 +5,7 @@
 use windfall_core::layout::WgslStruct;
 use windfall_core::{shared_constants, shared_struct};
 
-use super::pipeline::{buffer_entry, layout};
+use super::pipeline::{bind_buffers, buffer_entry, layout};
 use super::shaders::{Shaders, compile, declarations, wgsl_files};
 use super::upload;
 
@@ -94,19 +94,7 @@ impl RadixSort {
                 bytemuck::bytes_of(&uniform),
             );
             let (before, after) = if round % 2 == 0 { (&pairs, &other) } else { (&other, &pairs) };
-            let buffers = [&uniform, before, after, &counts];
-            let entries: Vec<_> = (0..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("sort"),
-                layout: &group_layout,
-                entries: &entries,
-            })
+            bind_buffers(device, "sort", &group_layout, &[&uniform, before, after, &counts])
         });
         let rounds = rounds.collect();
         let module = compile(device, &Shaders::from_iter(shaders()), "gpu/radix_sort");

@@ -14,7 +14,7 @@ use super::record::{CULL_GROUP_SIZE, ViewUniform};
 use super::species_table::SpeciesTable;
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::frame::sides::Sides;
-use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::pipeline::{bind_buffers, buffer_entry, layout};
 use crate::gpu::shaders::compile;
 use crate::trees::records::TreeRecords;
 
@@ -179,7 +179,7 @@ impl CullPass {
         tree_records: &TreeRecords,
         view: View,
     ) {
-        let entries = [
+        let own = [
             self.buffer(view),
             &page.buffers.uniform,
             tree_records.buffer(),
@@ -187,15 +187,7 @@ impl CullPass {
             &page.draws,
             &page.records,
         ];
-        let entries: Vec<_> = (0u32..)
-            .zip(entries)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let own = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("leaf page"),
-            layout: &self.page_layout,
-            entries: &entries,
-        });
+        let own = bind_buffers(device, "leaf page", &self.page_layout, &own);
         let entries: Vec<_> = (0u32..)
             .zip(columns)
             .map(|(binding, window)| wgpu::BindGroupEntry {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::meshes::LEVELS;
 use super::record::{COLUMN_BYTES, LeafDraw, LeafLight, LeafRecord, PageUniform, SLOTS_PER_THREAD};
-use crate::gpu::pipeline::buffer_entry;
+use crate::gpu::pipeline::{bind_buffers, buffer_entry};
 use crate::gpu::upload;
 use crate::trees::SceneTrees;
 
@@ -127,20 +127,7 @@ impl Page {
         let records = buffer("leaf records", u64::from(most_records) * RECORD_BYTES, storage);
         let lights = buffer("light on leaves", u64::from(most_records) * LIGHT_BYTES, storage);
         let draws = buffer("leaf draws", (LEVELS + 1) as u64 * DRAW_BYTES, storage | indirect);
-        let bind = |label, layout, buffers: &[&wgpu::Buffer]| {
-            let entries: Vec<_> = (0u32..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(label),
-                layout,
-                entries: &entries,
-            })
-        };
+        let bind = |label, layout, buffers: &[&wgpu::Buffer]| bind_buffers(device, label, layout, buffers);
         let group = bind("leaf records", &layouts.records, &[&records]);
         let lit_group = bind("lit leaf records", &layouts.lit_records, &[&records, &lights]);
         let lighting = bind("leaf lighting", &layouts.lighting, &[&records, &lights, &draws]);

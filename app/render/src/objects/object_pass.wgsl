@@ -8,10 +8,10 @@
 
 struct Varyings {
     @builtin(position) @invariant clip: vec4<f32>,
-    @location(0) world: vec3<f32>,
-    @location(1) normal: vec3<f32>,
-    @location(2) standing: vec3<f32>,
-    @location(3) edge: f32,
+    @location(0) @interpolate(perspective, centroid) world: vec3<f32>,
+    @location(1) @interpolate(perspective, centroid) normal: vec3<f32>,
+    @location(2) @interpolate(perspective, centroid) standing: vec3<f32>,
+    @location(3) @interpolate(perspective, centroid) edge: f32,
     @location(4) @interpolate(flat) part: u32,
 }
 

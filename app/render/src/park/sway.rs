@@ -11,7 +11,7 @@ use windfall_core::{Clock, CompiledScene, shared_constants, shared_struct};
 use windfall_wgpu::BranchColumns;
 
 use super::still_leaves::StillLeaves;
-use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::pipeline::{bind_buffers, buffer_entry, layout};
 use crate::gpu::shaders::{compile, declarations};
 use crate::gpu::upload;
 use crate::trees::SceneTrees;
@@ -123,20 +123,7 @@ impl Sway {
                 cache: None,
             })
         };
-        let bind = |label, layout, buffers: &[&wgpu::Buffer]| {
-            let entries: Vec<_> = (0u32..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(label),
-                layout,
-                entries: &entries,
-            })
-        };
+        let bind = |label, layout, buffers: &[&wgpu::Buffer]| bind_buffers(device, label, layout, buffers);
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("sway"),
             size: size_of::<SwayUniform>() as u64,

@@ -70,9 +70,10 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let crumbs = 1.0 - smoothstep(0.0, 0.14, abs(within_m + 0.02) + 0.25 * grain.y);
     var gravel = gravel_albedo(grain, above_water_m) * mix(0.72, 1.06, firm);
     var stony = 1.0;
-    let pixel_m = max(length(dpdx(at)), length(dpdy(at)));
+    let span_m = vec2(length(dpdx(at)), length(dpdy(at)));
+    let pixel_m = max(span_m.x, span_m.y);
     if path > 0.0 {
-        let stones = pebbles(at, min(length(dpdx(at)), length(dpdy(at))));
+        let stones = pebbles(at, min(span_m.x, span_m.y));
         gravel *= stones.rgb;
         stony = mix(1.0, stones.a, path);
     }
