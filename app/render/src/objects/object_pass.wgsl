@@ -182,7 +182,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
             shine = mix(48.0, 14.0, rust);
         }
         case GLASS_SURFACE: {
-            // Curtains behind some panes; dirt along the lower edges.
+            // Curtains hang behind some panes.
             let curtain = step(0.62, pane_random(local, shares, 1u)) * (0.5 + 0.5 * noise_at(vec2(place.x + place.z, 0.05 * place.y) * 3.0, level_of(3.0 * pixel_m)).g);
             albedo = mix(albedo, vec3(0.16, 0.15, 0.13), 0.6 * curtain) * (0.9 + 0.3 * (wide.r - 0.5));
             relief_m = vec4(0.0030, 0.0020, 0.0, 0.0);

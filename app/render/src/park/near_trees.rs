@@ -21,9 +21,8 @@ use crate::trees::bark_mesh::BarkBuffers;
 use crate::trees::branch_group::BranchGroup;
 use crate::trees::records::TreeRecords;
 
-/// Distance from the eye up to which trees are grown, in metres, and most of them.
+/// Distance from the eye up to which trees are grown, in metres.
 const REACH_M: f32 = 42.0;
-const MOST: usize = MOST_TREES;
 /// Leaves of a tree, each for several.
 const LEAVES: u32 = 1600;
 /// Share of their autumn that has passed.
@@ -54,7 +53,7 @@ pub(crate) fn part(
     };
     let (mut near, mut far): (Vec<_>, Vec<_>) = trees.into_iter().partition(is_near);
     near.sort_by(|a, b| offset(a).length().total_cmp(&offset(b).length()));
-    far.extend(near.drain(MOST.min(near.len())..));
+    far.extend(near.drain(MOST_TREES.min(near.len())..));
     (near, far)
 }
 
@@ -204,7 +203,7 @@ mod tests {
     #[test]
     fn the_nearest_trees_in_view_are_grown() {
         let (near, far) = part(&scene(LeafShape::Maple), row(), Vec3::ZERO, Vec2::NEG_Y);
-        assert_eq!((near.len(), far.len()), (MOST, 11 - MOST), "as many as there may be");
+        assert_eq!((near.len(), far.len()), (MOST_TREES, 11 - MOST_TREES), "as many as there may be");
         assert!(near.windows(2).all(|pair| pair[0].foot_m.z > pair[1].foot_m.z), "nearest first: {near:?}");
         assert!(near.iter().all(|tree| kind_of(tree.kind) != TreePreset::Bush), "no bushes");
         assert!(far.iter().any(|tree| tree.foot_m.z > 0.0), "not behind the eye");

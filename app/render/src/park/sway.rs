@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sway of the park's grown trees in the scene's wind: each as one oscillator, bent by the wind of the seconds before, which takes its branches and
-//! leaves along. It follows from the time alone, so that any frame can be drawn first. Twin: `sway.wgsl`.
+//! leaves along. It follows from the time alone, so that any frame can be drawn first. `sway.wgsl` moves
+//! what is bent.
 
 use glam::{Vec2, Vec3};
 use windfall_core::arith::vector;
@@ -21,7 +22,7 @@ shared_constants! {
     const SWAY_GROUP_SIZE: u32 = 64;
 }
 
-/// Most trees that sway.
+/// Most trees that are grown, and sway.
 pub(super) const MOST_TREES: usize = 5;
 
 shared_struct! {
@@ -51,7 +52,7 @@ shared_struct! {
     }
 }
 
-/// Frequency of a tree 12 m high with its leaves on, in hertz, and its damping ratio, about those of broad-leaved trees in the open.
+/// Frequency of a tree 12 m high with its leaves on, in hertz, and its damping ratio, set by eye.
 const FREQUENCY_HZ: f32 = 0.42;
 const DAMPING: f32 = 0.15;
 /// Height of that tree in metres: others swing the slower the higher they are.

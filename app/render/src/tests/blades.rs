@@ -3,7 +3,7 @@
 //! Soft shadows beneath leaves at rest, what insects leave of blades, and rain on all of it.
 
 use glam::Vec3;
-use image::RgbaImage;
+use image::{Rgba, RgbaImage};
 use windfall_core::Scene;
 use windfall_core::device::leaf::record::{STATE_FALLING, STATE_RESTING};
 use windfall_core::scene::{Camera, Exposure, Litter};
@@ -27,9 +27,15 @@ fn looking_down(scene: &mut Scene) {
     scene.view.lens.exposure = Exposure::Manual { ev100: 13.0 };
 }
 
+fn green(pixel: &Rgba<u8>) -> u8 {
+    let [_, green, ..] = pixel.0;
+    green
+}
+
 /// Pixels in which a picture is darker and lighter than another.
 fn darker_and_lighter(picture: &RgbaImage, than: &RgbaImage) -> [usize; 2] {
-    let steps = || picture.pixels().zip(than.pixels()).map(|(a, b)| i32::from(a.0[1]) - i32::from(b.0[1]));
+    let steps =
+        || picture.pixels().zip(than.pixels()).map(|(a, b)| i32::from(green(a)) - i32::from(green(b)));
     [steps().filter(|&step| step < -6).count(), steps().filter(|&step| step > 6).count()]
 }
 
@@ -75,7 +81,7 @@ fn rain_darkens_the_ground_and_its_film_shines_on_leaves() {
     };
     let ground = |moisture: f32| {
         let picture = picture(moisture, 0);
-        picture.pixels().map(|pixel| f64::from(pixel.0[1])).sum::<f64>() / picture.pixels().len() as f64
+        picture.pixels().map(|pixel| f64::from(green(pixel))).sum::<f64>() / picture.pixels().len() as f64
     };
     let [dry, damp, wet] = [0.0, 1.0, 2.0].map(ground);
     assert!(wet + 1.0 < damp && damp + 1.0 < dry, "brightness of grass: {dry} dry, {damp} damp, {wet} wet");

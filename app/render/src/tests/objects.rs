@@ -155,8 +155,12 @@ fn ball(finish: Finish, reflectance: f32) -> (RgbaImage, f64) {
     });
     let picture = picture_at(&mut bench, 0.0);
     let rows = SIZE.1 / 2 - 22..SIZE.1 / 2 - 16;
-    let pixels = rows.flat_map(|y| (SIZE.0 / 2 - 10..SIZE.0 / 2 + 10).map(move |x| (x, y)));
-    let rim = pixels.map(|(x, y)| f64::from(picture.get_pixel(x, y).0[1])).sum::<f64>() / 120.0;
+    let places: Vec<_> = rows.flat_map(|y| (SIZE.0 / 2 - 10..SIZE.0 / 2 + 10).map(move |x| (x, y))).collect();
+    let green = |&(x, y): &(u32, u32)| {
+        let [_, green, ..] = picture.get_pixel(x, y).0;
+        f64::from(green)
+    };
+    let rim = places.iter().map(green).sum::<f64>() / places.len() as f64;
     (picture, rim)
 }
 
@@ -185,7 +189,8 @@ fn walkers_wear_their_own_jackets() {
     };
     let (red, blue) = (walker(Vec3::new(0.4, 0.03, 0.03)), walker(Vec3::new(0.03, 0.03, 0.4)));
     let blueness = |picture: &RgbaImage| {
-        picture.pixels().map(|pixel| i64::from(pixel.0[2]) - i64::from(pixel.0[0])).sum::<i64>()
+        let channels = picture.pixels().map(|pixel| pixel.0);
+        channels.map(|[red, _, blue, _]| i64::from(blue) - i64::from(red)).sum::<i64>()
     };
     assert!(differing(&red, &blue) > 20, "they are seen");
     assert!(blueness(&blue) > blueness(&red) + 1000, "one is blue");
