@@ -150,8 +150,9 @@ impl Level {
 
     /// The level in bytes.
     fn to_image(&self, scale: f32) -> RgbaImage {
-        let [whole, thin] = WHOLE_THREADS.map(|edge| (edge as f32).log2());
-        let wholeness = (((self.size as f32).log2() - thin) / (whole - thin)).clamp(0.0, 1.0);
+        let [own, whole, thin] =
+            [self.size, WHOLE_THREADS[0], WHOLE_THREADS[1]].map(|edge| edge.ilog2() as f32);
+        let wholeness = ((own - thin) / (whole - thin)).clamp(0.0, 1.0);
         RgbaImage::from_fn(self.size, self.size, |x, y| {
             let at = y as usize * self.size as usize + x as usize;
             let [r, g, b, a] = self.texels[at];
@@ -190,11 +191,11 @@ mod tests {
         }
     }
 
-    /// A disc on a slanted stalk, five texels wide.
+    /// A disc on a slanted stalk, two and a half texels wide.
     fn lollipop() -> RgbaImage {
         RgbaImage::from_fn(256, 256, |x, y| {
             let (x, y) = (x as f32 - 127.5, y as f32 - 127.5);
-            let on_stalk = y > 0.0 && (x - 0.4 * y).abs() < 2.5;
+            let on_stalk = y > 0.0 && (x - 0.4 * y).abs() < 1.25;
             let on_disc = x * x + (y + 40.0) * (y + 40.0) < 3600.0;
             Rgba([120, 60, 20, if on_stalk || on_disc { 255 } else { 0 }])
         })
